@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/instance.h"
+#include "shared/node.h"
+#include "shared/triangle.h"
+
+namespace boxwood {
+
+/// Node layout that traversal reads.
+enum class Layout { binary, wide8 };
+
+/// One tree over everything flattened to world space, or a tree per mesh under a tree over instances.
+enum class Levels { automatic, one, two };
+
+/// The words used in options, reports and on the command line. to_layout and to_levels throw InputError listing them.
+std::string_view name(Layout layout);
+std::string_view name(Levels levels);
+Layout to_layout(std::string_view word);
+Levels to_levels(std::string_view word);
+
+/// A built tree in plain host arrays: what a .bxw file stores and what the device traverses. Exactly the arrays of
+/// its layout are filled. The top arrays and `instances` are filled for two levels only; one level has its root at
+/// node 0. An empty tree has no nodes.
+struct TreeImage {
+    Layout layout = Layout::wide8;
+    Levels levels = Levels::one; ///< never automatic
+
+    std::vector<BinaryNode> binary_nodes; ///< Bottom level; leaf references index `triangles`.
+    std::vector<Triangle> triangles;
+    std::vector<Wide8Node> wide_nodes; ///< Bottom level; leaf references index `blocks`. Children come after parents.
+    std::vector<Triangle4> blocks;
+
+    std::vector<BinaryNode> binary_top; ///< Top level, root 0; leaf references index `instances`.
+    std::vector<Wide8Node> wide_top;
+    std::vector<InstanceRecord> instances; ///< Same order as Scene::instances.
+
+    std::uint32_t bottom_depth = 0; ///< Most nodes on a path from a bottom root to a leaf's parent, over all meshes.
+    std::uint32_t top_depth = 0;
+};
+
+/// Throws InputError(file, element, what) unless every reference is in range, every tree is a tree within its stated
+/// depth and its leaves name existing primitives and instances of `scene_*` counts, so that traversal of it is safe.
+/// O(nodes).
+void validate(const TreeImage& tree, const std::string& file, std::uint64_t instance_count,
+              std::uint64_t triangle_count);
+
+} // namespace boxwood

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# boxwood_warnings(TARGET): strict warnings as errors, and the sanitizers when they are on.
+function(boxwood_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+  if(BOXWOOD_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+  endif()
+endfunction()
