@@ -3,6 +3,7 @@
 # `boxwood::SYMBOL` (see host/runtime/kernel_text.hpp). Run as a script (cmake -P) it writes that table.
 if(CMAKE_SCRIPT_MODE_FILE)
   set(entries "")
+  string(REPLACE "," ";" FILES "${FILES}")
   foreach(file IN LISTS FILES)
     file(READ "${ROOT}/${file}" hex HEX)
     string(REGEX REPLACE "(..)" "0x\\1," bytes "${hex}")
@@ -20,7 +21,7 @@ function(boxwood_embed_kernels target symbol root)
   list(TRANSFORM files PREPEND "${root}/" OUTPUT_VARIABLE paths)
   set(output "${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp")
   set(script "${PROJECT_SOURCE_DIR}/scripts/embed_kernels.cmake")
-  string(REPLACE ";" "\\;" list "${files}")
+  string(REPLACE ";" "," list "${files}")
   add_custom_command(OUTPUT "${output}"
     COMMAND ${CMAKE_COMMAND} "-DROOT=${root}" "-DFILES=${list}" "-DOUTPUT=${output}" -DSYMBOL=${symbol} -P "${script}"
     DEPENDS ${paths} "${script}" COMMENT "Embedding kernels of ${root}" VERBATIM)

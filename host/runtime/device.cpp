@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/device.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+#include "boxwood/error.hpp"
+#include "runtime/device_state.hpp"
+
+namespace boxwood {
+
+namespace {
+
+std::vector<cl::Device> all_devices() {
+    std::vector<cl::Platform> platforms;
+    std::vector<cl::Device> devices;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) { // no platform at all is reported as an error by the loader
+        return {};
+    }
+    for (const cl::Platform& platform : platforms) {
+        std::vector<cl::Device> found;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+        } catch (const cl::Error&) { // a platform without devices, likewise
+            continue;
+        }
+        for (const cl::Device& device : found)
+            if (device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) devices.push_back(device);
+    }
+    return devices;
+}
+
+bool compiles_opencl_c_3(const cl::Device& device) {
+    std::size_t bytes = 0;
+    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, 0, nullptr, &bytes) != CL_SUCCESS) return false;
+    std::vector<cl_name_version> versions(bytes / sizeof(cl_name_version));
+    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, bytes, versions.data(), nullptr) != CL_SUCCESS)
+        return false;
+    return std::any_of(versions.begin(), versions.end(),
+                       [](const cl_name_version& each) { return CL_VERSION_MAJOR(each.version) == 3; });
+}
+
+DeviceInfo describe(const cl::Device& device, std::size_t index) {
+    DeviceInfo info;
+    info.index = index;
+    info.platform = cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
+    info.name = device.getInfo<CL_DEVICE_NAME>();
+    info.driver = device.getInfo<CL_DRIVER_VERSION>();
+    info.version = device.getInfo<CL_DEVICE_VERSION>();
+    info.language = compiles_opencl_c_3(device) ? "CL3.0" : "CL1.2";
+    info.cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+    info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    info.global_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.largest_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    return info;
+}
+
+/// A CPU runs a few long slices, each work-group one work-item; a GPU many short ones.
+Tuning default_tuning(const DeviceInfo& info) {
+    if (info.cpu) return {1, 16 * info.compute_units, 256};
+    return {64, 1024 * info.compute_units, 4};
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool selects(const std::string& selector, const DeviceInfo& info) {
+    std::size_t index = 0;
+    const char* end = selector.data() + selector.size();
+    const auto [rest, status] = std::from_chars(selector.data(), end, index);
+    if (status == std::errc() && rest == end) return index == info.index;
+    return lower(info.name).find(lower(selector)) != std::string::npos ||
+           lower(info.platform).find(lower(selector)) != std::string::npos;
+}
+
+std::string listing(const std::vector<DeviceInfo>& infos) {
+    std::ostringstream out;
+    for (const DeviceInfo& info : infos) out << "\n  " << info.index << "  " << info.platform << ": " << info.name;
+    return out.str();
+}
+
+} // namespace
+
+std::vector<DeviceInfo> list_devices() {
+    std::vector<DeviceInfo> infos;
+    for (const cl::Device& device : all_devices()) infos.push_back(describe(device, infos.size()));
+    return infos;
+}
+
+Device::Device(const std::string& selector) {
+    std::string wanted = selector;
+    if (const char* variable = std::getenv("BOXWOOD_DEVICE"); wanted.empty() && variable) wanted = variable;
+    const std::vector<DeviceInfo> infos = list_devices();
+    if (infos.empty())
+        throw DeviceError(0, "choosing a device", "", "no OpenCL device found; install one, such as pocl-opencl-icd");
+    const auto found = wanted.empty() ? infos.begin() : std::find_if(infos.begin(), infos.end(), [&](const auto& info) {
+        return selects(wanted, info);
+    });
+    if (found == infos.end())
+        throw DeviceError(0, "choosing a device", "", "no device matches \"" + wanted + "\"; there are:" + listing(infos));
+    try {
+        state_ = std::make_shared<detail::DeviceState>(all_devices().at(found->index), *found);
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), "", "opening " + found->name);
+    }
+    state_->tuning = default_tuning(*found);
+}
+
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+const DeviceInfo& Device::info() const { return state_->info; }
+
+const Tuning& Device::tuning() const { return state_->tuning; }
+
+void Device::set_tuning(const Tuning& tuning) {
+    const std::size_t limit = state_->device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (tuning.group_size == 0 || tuning.group_size > limit || tuning.work_items == 0 || tuning.smallest_slice == 0)
+        throw DeviceError(0, "setting the tuning", "", "sizes must be positive and groups at most " + std::to_string(limit));
+    state_->tuning = tuning;
+}
+
+void Device::finish() {
+    try {
+        state_->queue.finish();
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), "", "");
+    }
+}
+
+std::uint64_t Device::held_bytes() const { return state_->held_bytes; }
+std::uint64_t Device::peak_bytes() const { return state_->peak_bytes; }
+void Device::reset_peak() { state_->peak_bytes = state_->held_bytes; }
+void Device::trim() { state_->trim(); }
+double Device::compile_ms() const { return state_->compile_ms; }
+
+Profile Device::take_profile() {
+    try {
+        return state_->take_profile();
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), "", "");
+    }
+}
+
+} // namespace boxwood

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/device_state.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "boxwood/error.hpp"
+#include "runtime/kernel_text.hpp"
+
+namespace boxwood::detail {
+
+namespace {
+
+/// By the call that OpenCL 1.2 has too.
+cl::CommandQueue make_queue(const cl::Context& context, const cl::Device& device) {
+    cl_int status = CL_SUCCESS;
+    const cl_command_queue queue = clCreateCommandQueue(context(), device(), CL_QUEUE_PROFILING_ENABLE, &status);
+    if (status != CL_SUCCESS) throw cl::Error(status, "clCreateCommandQueue");
+    return cl::CommandQueue(queue);
+}
+
+} // namespace
+
+DeviceState::DeviceState(cl::Device device_, DeviceInfo info_)
+    : device(std::move(device_)), info(std::move(info_)), context(device),
+      queue(make_queue(context, device)) {}
+
+const cl::Program& DeviceState::program(const std::string& file, const std::string& options) {
+    const std::string key = file + '\n' + options;
+    if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+
+    const auto start = std::chrono::steady_clock::now();
+    const std::string text = resolve_kernel_text(file);
+    cl::Program built(context, text);
+    try {
+        built.build(device, options.c_str());
+    } catch (const cl::Error&) {
+        throw ProgramError(file, info.name, options, built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device), text);
+    }
+    compile_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return programs_.emplace(key, std::move(built)).first->second;
+}
+
+cl::Kernel& DeviceState::kernel(const std::string& file, const std::string& name, const std::string& options) {
+    const std::string key = file + '\n' + options + '\n' + name;
+    if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second;
+    try {
+        return kernels_.emplace(key, cl::Kernel(program(file, options), name.c_str())).first->second;
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), name, "no such kernel in " + file);
+    }
+}
+
+void DeviceState::record(const char* label, cl::Event event) {
+    const auto [found, added] = pass_index_.try_emplace(stage + '\n' + label, profile_.passes.size());
+    if (added) profile_.passes.push_back({stage, label, 0, 0.0});
+    pending_.push_back({found->second, std::move(event)});
+    // Bounds the number of live events; by now nearly all of them are complete.
+    constexpr std::size_t most_pending = 4096;
+    if (pending_.size() >= most_pending) resolve_pending();
+}
+
+void DeviceState::resolve_pending() {
+    for (const Pending& launch : pending_) {
+        launch.event.wait();
+        const auto start = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        const auto end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+        PassTime& pass = profile_.passes[launch.pass];
+        pass.ms += static_cast<double>(end - start) * 1e-6;
+        ++pass.launches;
+    }
+    pending_.clear();
+}
+
+Profile DeviceState::take_profile() {
+    resolve_pending();
+    pass_index_.clear();
+    return std::exchange(profile_, {});
+}
+
+DeviceState::Block DeviceState::allocate(std::size_t bytes, const char* label, bool pooled) {
+    const std::string what = std::string("device memory for ") + label;
+    if (bytes > info.largest_buffer_bytes)
+        throw CapacityError("largest buffer of " + info.name + ", in bytes, for " + label, bytes,
+                            info.largest_buffer_bytes);
+    if (pooled) {
+        // A block up to half as large again is better reused than a new one made.
+        const auto found = pool_.lower_bound(bytes);
+        if (found != pool_.end() && found->first <= bytes + bytes / 2 + 4096) {
+            const Block block{found->second, found->first};
+            pool_.erase(found);
+            return block;
+        }
+    }
+    if (held_bytes + bytes > info.global_bytes) trim();
+    if (held_bytes + bytes > info.global_bytes)
+        throw CapacityError(what + ", in bytes", held_bytes + bytes, info.global_bytes);
+    cl_int status = CL_SUCCESS;
+    const cl_mem handle = clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
+    if (status != CL_SUCCESS) throw CapacityError(what + ", in bytes", bytes, info.global_bytes - held_bytes);
+    held_bytes += bytes;
+    peak_bytes = std::max(peak_bytes, held_bytes);
+    return {handle, bytes};
+}
+
+void DeviceState::release(const Block& block, bool pooled) noexcept {
+    if (pooled) {
+        try {
+            pool_.emplace(block.bytes, block.handle);
+            return;
+        } catch (...) { // no memory for the pool entry: free the block instead
+        }
+    }
+    clReleaseMemObject(block.handle);
+    held_bytes -= block.bytes;
+}
+
+void DeviceState::trim() noexcept {
+    // Blocks may still be in use by enqueued work; OpenCL frees them after it.
+    for (const auto& [bytes, handle] : pool_) {
+        clReleaseMemObject(handle);
+        held_bytes -= bytes;
+    }
+    pool_.clear();
+}
+
+} // namespace boxwood::detail

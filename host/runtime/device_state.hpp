@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What is behind a Device: context, queue, program cache, memory accounting, pending profile events.
+#pragma once
+
+#define CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_TARGET_OPENCL_VERSION 300
+// Debian's opencl.hpp does not compile with a minimum of 1.2; what needs 2.0 is not called on 1.2 devices.
+#define CL_HPP_MINIMUM_OPENCL_VERSION 200
+#define CL_USE_DEPRECATED_OPENCL_1_2_APIS
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CL/opencl.hpp>
+
+#include "boxwood/device.hpp"
+
+namespace boxwood::detail {
+
+class DeviceState {
+public:
+    DeviceState(cl::Device device, DeviceInfo info);
+
+    const cl::Device device;
+    const DeviceInfo info;
+    const cl::Context context;
+    const cl::CommandQueue queue; ///< In order, with profiling.
+    Tuning tuning;
+    std::string stage; ///< Name of the innermost Stage.
+    double compile_ms = 0.0;
+
+    /// The kernel `name` of `file` compiled with `options`; compiled at most once. Throws ProgramError.
+    cl::Kernel& kernel(const std::string& file, const std::string& name, const std::string& options);
+
+    /// Remembers a launch for the profile.
+    void record(const char* label, cl::Event event);
+    Profile take_profile();
+
+    /// Memory accounting. `allocate` throws CapacityError; `release` takes back what it gave.
+    struct Block {
+        cl_mem handle;
+        std::size_t bytes;
+    };
+    Block allocate(std::size_t bytes, const char* label, bool pooled);
+    void release(const Block& block, bool pooled) noexcept;
+    void trim() noexcept;
+    std::uint64_t held_bytes = 0;
+    std::uint64_t peak_bytes = 0;
+
+private:
+    struct Pending {
+        std::size_t pass;
+        cl::Event event;
+    };
+
+    const cl::Program& program(const std::string& file, const std::string& options);
+    void resolve_pending();
+
+    std::map<std::string, cl::Program> programs_;
+    std::map<std::string, cl::Kernel> kernels_;
+    std::multimap<std::size_t, cl_mem> pool_; ///< Free scratch by size in bytes.
+    std::vector<Pending> pending_;
+    std::map<std::string, std::size_t> pass_index_;
+    Profile profile_;
+};
+
+} // namespace boxwood::detail

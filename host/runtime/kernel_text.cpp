@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/kernel_text.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "boxwood/error.hpp"
+
+namespace boxwood {
+
+namespace {
+
+std::map<std::string, const char*>& table() {
+    static std::map<std::string, const char*> files = [] {
+        std::map<std::string, const char*> result;
+        for (const KernelText& kernel : library_kernels) result[kernel.file] = kernel.text;
+        return result;
+    }();
+    return files;
+}
+
+std::string load(const std::string& file, const std::string& includer) {
+    if (const char* folder = std::getenv("BOXWOOD_KERNEL_DIR")) {
+        std::ifstream stream(std::string(folder) + "/" + file, std::ios::binary);
+        if (stream) return std::string(std::istreambuf_iterator<char>(stream), {});
+    }
+    const auto found = table().find(file);
+    if (found == table().end()) throw ProgramError(includer, "any device", "", "no kernel file \"" + file + "\"", "");
+    return found->second;
+}
+
+/// The file named by an include line of an embedded file, if it is one.
+std::optional<std::string> included_file(const std::string& line) {
+    const std::size_t start = line.find_first_not_of(" \t");
+    if (start == std::string::npos || line.compare(start, 8, "#include") != 0) return std::nullopt;
+    const std::size_t open = line.find('"', start);
+    const std::size_t close = open == std::string::npos ? open : line.find('"', open + 1);
+    if (close == std::string::npos) return std::nullopt;
+    return line.substr(open + 1, close - open - 1);
+}
+
+void append(const std::string& file, const std::string& includer, std::set<std::string>& seen, std::ostream& out) {
+    if (!seen.insert(file).second) return;
+    out << "#line 1 \"" << file << "\"\n";
+    std::istringstream lines(load(file, includer));
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        if (const auto include = included_file(line)) {
+            append(*include, file, seen, out);
+            out << "#line " << number + 1 << " \"" << file << "\"\n";
+        } else {
+            out << line << '\n';
+        }
+    }
+}
+
+} // namespace
+
+void add_kernels(const std::vector<KernelText>& kernels) {
+    for (const KernelText& kernel : kernels) table()[kernel.file] = kernel.text;
+}
+
+std::vector<std::string> kernel_files() {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : table()) names.push_back(name);
+    return names;
+}
+
+std::string resolve_kernel_text(const std::string& file) {
+    std::ostringstream out;
+    std::set<std::string> seen;
+    append(file, file, seen, out);
+    return out.str();
+}
+
+} // namespace boxwood

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/launch.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "boxwood/error.hpp"
+#include "runtime/device_state.hpp"
+
+namespace boxwood {
+
+namespace {
+
+std::string build_options(const Device& device, const Defines& defines) {
+    std::string options = "-cl-std=" + device.info().language;
+    options += " -DGROUP_SIZE=" + std::to_string(device.tuning().group_size);
+    for (const auto& [macro, value] : defines) options += " -D" + macro + "=" + value;
+    return options;
+}
+
+cl::Kernel& find(Device& device, const KernelRef& kernel) {
+    return device.state().kernel(kernel.file, kernel.name, build_options(device, kernel.defines));
+}
+
+} // namespace
+
+Slices cut(const Device& device, std::size_t count, std::size_t multiple) {
+    if (count == 0) return {};
+    const Tuning& tuning = device.tuning();
+    std::size_t length = std::max<std::size_t>((count - 1) / tuning.work_items + 1, tuning.smallest_slice);
+    length = ((length - 1) / multiple + 1) * multiple;
+    return {static_cast<std::uint32_t>((count - 1) / length + 1), static_cast<std::uint32_t>(length)};
+}
+
+void compile(Device& device, const KernelRef& kernel) { find(device, kernel); }
+
+void detail::enqueue(Device& device, const KernelRef& ref, const char* label, std::size_t work_items,
+                     const Argument* arguments, std::size_t argument_count) {
+    if (work_items == 0) return;
+    cl::Kernel& kernel = find(device, ref);
+    try {
+        const std::size_t wanted = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
+        if (wanted != argument_count)
+            throw DeviceError(0, std::string("launching ") + label, ref.name,
+                              "takes " + std::to_string(wanted) + " arguments, got " + std::to_string(argument_count));
+        for (cl_uint i = 0; i < argument_count; ++i) kernel.setArg(i, arguments[i].bytes, arguments[i].value);
+        const std::size_t group = device.tuning().group_size;
+        const std::size_t items = ((work_items - 1) / group + 1) * group;
+        cl::Event event;
+        device.state().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group), nullptr,
+                                                  &event);
+        device.state().record(label, std::move(event));
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), ref.name, label);
+    }
+}
+
+} // namespace boxwood

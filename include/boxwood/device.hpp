@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boxwood/profile.hpp"
+
+namespace boxwood {
+
+namespace detail {
+class DeviceState;
+}
+
+/// One OpenCL device as listed by list_devices().
+struct DeviceInfo {
+    std::size_t index = 0; ///< Position in list_devices(), over all platforms.
+    std::string platform;
+    std::string name;
+    std::string driver;
+    std::string version; ///< OpenCL version of the device.
+    std::string language; ///< OpenCL C dialect that Boxwood compiles for: "CL3.0" or "CL1.2".
+    bool cpu = false;
+    std::uint32_t compute_units = 0;
+    std::uint64_t global_bytes = 0; ///< Memory of the device.
+    std::uint64_t largest_buffer_bytes = 0; ///< Largest single allocation.
+};
+
+/// How work is cut for a device class. Results never depend on it.
+struct Tuning {
+    std::uint32_t group_size = 1; ///< Work-items per work-group, 1 or more.
+    std::uint32_t work_items = 16; ///< Work-items that a launch over a long array is cut into.
+    std::uint32_t smallest_slice = 256; ///< Elements per work-item below which fewer work-items are used.
+};
+
+/// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform).
+std::vector<DeviceInfo> list_devices();
+
+/// An OpenCL device with its in-order queue, compiled programs, memory accounting and profile. First argument of
+/// everything that runs on one. Movable; used by one thread at a time.
+class Device {
+public:
+    /// `selector` is an index of list_devices() or a part of a device or platform name (any case). Empty: the
+    /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError listing the devices.
+    explicit Device(const std::string& selector = "");
+    ~Device();
+    Device(Device&&) noexcept;
+    Device& operator=(Device&&) noexcept;
+
+    const DeviceInfo& info() const;
+
+    const Tuning& tuning() const;
+    /// Replaces the tuning of the device class, for experiments and tests. Throws DeviceError when the group size is
+    /// 0 or above the device's limit.
+    void set_tuning(const Tuning& tuning);
+
+    /// Waits until everything enqueued is done.
+    void finish();
+
+    /// Bytes of device memory held now, and the most held since the start or reset_peak(). Pooled scratch counts.
+    std::uint64_t held_bytes() const;
+    std::uint64_t peak_bytes() const;
+    void reset_peak();
+    /// Gives pooled scratch memory back to the device.
+    void trim();
+
+    /// Milliseconds spent compiling programs so far.
+    double compile_ms() const;
+
+    /// Waits, then returns and clears the times of all passes since the last call.
+    Profile take_profile();
+
+    /// For the runtime and for tests.
+    detail::DeviceState& state() const { return *state_; }
+    const std::shared_ptr<detail::DeviceState>& shared_state() const { return state_; }
+
+private:
+    std::shared_ptr<detail::DeviceState> state_;
+};
+
+} // namespace boxwood

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR and --seed=N.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boxwood/error.hpp"
+#include "runtime/kernel_text.hpp"
+#include "support.hpp"
+
+namespace boxwood {
+extern const std::vector<KernelText> test_kernels;
+}
+
+namespace boxwood::test {
+namespace {
+
+std::unique_ptr<Device> device_under_test;
+std::uint64_t seed = 20260101;
+
+} // namespace
+
+Device& test_device() { return *device_under_test; }
+std::uint64_t test_seed() { return seed; }
+
+std::filesystem::path scenes_folder() {
+    const char* folder = std::getenv("BOXWOOD_SCENES");
+    return folder ? folder : "";
+}
+
+bool small_sizes() { return std::getenv("BOXWOOD_SMALL") != nullptr; }
+
+namespace {
+
+/// Takes `--name=value` or `--name value` out of the arguments; "" when absent.
+std::string take_option(std::vector<char*>& arguments, const std::string& name) {
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        const std::string argument = arguments[i];
+        if (argument.starts_with("--" + name + "=")) {
+            arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i));
+            return argument.substr(name.size() + 3);
+        }
+        if (argument == "--" + name && i + 1 < arguments.size()) {
+            const std::string value = arguments[i + 1];
+            const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(i);
+            arguments.erase(first, first + 2);
+            return value;
+        }
+    }
+    return "";
+}
+
+int run(int argc, char** argv) {
+    std::vector<char*> arguments(argv, argv + argc);
+    const std::string selector = take_option(arguments, "device");
+    if (const std::string value = take_option(arguments, "seed"); !value.empty()) seed = std::stoull(value);
+
+    doctest::Context context(static_cast<int>(arguments.size()), arguments.data());
+    device_under_test = std::make_unique<Device>(selector);
+    add_kernels(test_kernels);
+    const DeviceInfo& info = device_under_test->info();
+    std::cout << "device: " << info.name << "\nplatform: " << info.platform << "\ndriver: " << info.driver << " ("
+              << info.version << ", " << info.language << ")\nseed: " << seed << std::endl;
+
+    const int status = context.run();
+    if (!context.shouldExit()) {
+        std::cout << "verdict: " << info.name << (status == 0 ? " PASSES" : " FAILS") << " the Boxwood tests"
+                  << std::endl;
+    }
+    device_under_test.reset();
+    return status;
+}
+
+} // namespace
+} // namespace boxwood::test
+
+int main(int argc, char** argv) {
+    try {
+        return boxwood::test::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::cerr << "boxwood-tests: " << error.what() << '\n';
+        return 4;
+    }
+}
