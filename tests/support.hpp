@@ -61,9 +61,7 @@ public:
         return z ^ (z >> 31);
     }
     /// Uniform in [low, high).
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(bits() >> 40) * 0x1p-24f;
-    }
+    float uniform(float low, float high) { return low + (high - low) * static_cast<float>(bits() >> 40) * 0x1p-24f; }
     /// Uniform in [0, count), count > 0 (bias below 2^-32 for the counts used).
     std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>((bits() >> 32) * count >> 32); }
 

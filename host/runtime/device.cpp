@@ -106,7 +106,8 @@ Device::Device(const std::string& selector) {
         return selects(wanted, info);
     });
     if (found == infos.end())
-        throw DeviceError(0, "choosing a device", "", "no device matches \"" + wanted + "\"; there are:" + listing(infos));
+        throw DeviceError(0, "choosing a device", "",
+                          "no device matches \"" + wanted + "\"; there are:" + listing(infos));
     try {
         state_ = std::make_shared<detail::DeviceState>(all_devices().at(found->index), *found);
     } catch (const cl::Error& error) {
@@ -126,7 +127,8 @@ const Tuning& Device::tuning() const { return state_->tuning; }
 void Device::set_tuning(const Tuning& tuning) {
     const std::size_t limit = state_->device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
     if (tuning.group_size == 0 || tuning.group_size > limit || tuning.work_items == 0 || tuning.smallest_slice == 0)
-        throw DeviceError(0, "setting the tuning", "", "sizes must be positive and groups at most " + std::to_string(limit));
+        throw DeviceError(0, "setting the tuning", "",
+                          "sizes must be positive and groups at most " + std::to_string(limit));
     state_->tuning = tuning;
 }
 

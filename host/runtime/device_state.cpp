@@ -23,8 +23,7 @@ cl::CommandQueue make_queue(const cl::Context& context, const cl::Device& device
 } // namespace
 
 DeviceState::DeviceState(cl::Device device_, DeviceInfo info_)
-    : device(std::move(device_)), info(std::move(info_)), context(device),
-      queue(make_queue(context, device)) {}
+    : device(std::move(device_)), info(std::move(info_)), context(device), queue(make_queue(context, device)) {}
 
 const cl::Program& DeviceState::program(const std::string& file, const std::string& options) {
     const std::string key = file + '\n' + options;

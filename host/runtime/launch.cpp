@@ -48,8 +48,8 @@ void detail::enqueue(Device& device, const KernelRef& ref, const char* label, st
         const std::size_t group = device.tuning().group_size;
         const std::size_t items = ((work_items - 1) / group + 1) * group;
         cl::Event event;
-        device.state().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group), nullptr,
-                                                  &event);
+        device.state().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group),
+                                                  nullptr, &event);
         device.state().record(label, std::move(event));
     } catch (const cl::Error& error) {
         throw DeviceError(error.err(), error.what(), ref.name, label);

@@ -49,8 +49,7 @@ Argument to_argument(const BufferView<T>& view) {
 }
 
 template <class T>
-    requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= 8)
-Argument to_argument(const T& value) {
+requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= 8) Argument to_argument(const T& value) {
     return {&value, sizeof(T)};
 }
 

@@ -51,8 +51,8 @@ public:
     BufferView(cl_mem handle, std::size_t size) : handle_(handle), size_(size) {}
     /// A view of mutable elements is a view of const elements.
     template <class U>
-        requires(std::is_same_v<T, const U>)
-    BufferView(const BufferView<U>& other) : handle_(other.handle()), size_(other.size()) {}
+    requires(std::is_same_v<T, const U>) BufferView(const BufferView<U>& other)
+        : handle_(other.handle()), size_(other.size()) {}
 
     std::size_t size() const { return size_; }
     const cl_mem& handle() const { return handle_; }

@@ -21,18 +21,18 @@ struct DeviceInfo {
     std::string platform;
     std::string name;
     std::string driver;
-    std::string version; ///< OpenCL version of the device.
+    std::string version;  ///< OpenCL version of the device.
     std::string language; ///< OpenCL C dialect that Boxwood compiles for: "CL3.0" or "CL1.2".
     bool cpu = false;
     std::uint32_t compute_units = 0;
-    std::uint64_t global_bytes = 0; ///< Memory of the device.
+    std::uint64_t global_bytes = 0;         ///< Memory of the device.
     std::uint64_t largest_buffer_bytes = 0; ///< Largest single allocation.
 };
 
 /// How work is cut for a device class. Results never depend on it.
 struct Tuning {
-    std::uint32_t group_size = 1; ///< Work-items per work-group, 1 or more.
-    std::uint32_t work_items = 16; ///< Work-items that a launch over a long array is cut into.
+    std::uint32_t group_size = 1;       ///< Work-items per work-group, 1 or more.
+    std::uint32_t work_items = 16;      ///< Work-items that a launch over a long array is cut into.
     std::uint32_t smallest_slice = 256; ///< Elements per work-item below which fewer work-items are used.
 };
 

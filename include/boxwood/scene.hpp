@@ -23,7 +23,7 @@ struct Mesh {
 /// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float.
 struct Instance {
     std::string name;
-    std::uint32_t mesh = 0; ///< Index into Scene::meshes.
+    std::uint32_t mesh = 0;    ///< Index into Scene::meshes.
     glm::mat4 transform{1.0f}; ///< Object to world.
 };
 
@@ -33,13 +33,13 @@ struct Camera {
     glm::mat4 to_world{1.0f}; ///< Rigid, or rigid with scale; never singular.
     bool perspective = true;
     float vertical_fov = 0.8f; ///< Radians; perspective only.
-    float half_height = 1.0f; ///< World units; orthographic only.
+    float half_height = 1.0f;  ///< World units; orthographic only.
 };
 
 /// What the importer left out or changed, for the report.
 struct ImportCounts {
-    std::uint64_t dropped_triangles = 0; ///< With a vertex that is NaN, infinite or out of range.
-    std::uint64_t dropped_instances = 0; ///< With a singular or non-finite transform, or of a mesh left empty.
+    std::uint64_t dropped_triangles = 0;        ///< With a vertex that is NaN, infinite or out of range.
+    std::uint64_t dropped_instances = 0;        ///< With a singular or non-finite transform, or of a mesh left empty.
     std::uint64_t skipped_points_and_lines = 0; ///< Primitives of these modes.
 };
 

@@ -40,6 +40,10 @@ struct TreeImage {
     std::vector<Wide8Node> wide_top;
     std::vector<InstanceRecord> instances; ///< Same order as Scene::instances.
 
+    /// One level over a scene with more than one instance: where each instance's triangles start in the flattened
+    /// scene, and the total at the end; instances + 1 entries, ascending. Empty otherwise.
+    std::vector<std::uint32_t> first_triangles;
+
     std::uint32_t bottom_depth = 0; ///< Most nodes on a path from a bottom root to a leaf's parent, over all meshes.
     std::uint32_t top_depth = 0;
 };

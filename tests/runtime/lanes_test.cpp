@@ -13,8 +13,8 @@ TEST_CASE("lanes: the device's instruction and its portable twin agree on every 
     for (const char* portable : {"0", "1"}) {
         CAPTURE(portable);
         Guarded<std::uint32_t> out(test_device(), 4 * 256);
-        launch(test_device(), {"runtime/lanes_test.cl", "lanes_test", {{"PORTABLE_LANES", portable}}}, "lanes test", 256,
-               out.view());
+        launch(test_device(), {"runtime/lanes_test.cl", "lanes_test", {{"PORTABLE_LANES", portable}}}, "lanes test",
+               256, out.view());
         const auto values = out.values();
         for (std::uint32_t mask = 0; mask < 256; ++mask) {
             CHECK(values[4 * mask + 0] == mask);

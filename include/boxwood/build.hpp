@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "boxwood/device.hpp"
+#include "boxwood/scene.hpp"
+#include "boxwood/tree.hpp"
+
+namespace boxwood {
+
+/// Length of Morton codes: 30 bits (10 per axis) or 63 (21 per axis).
+enum class MortonBits { bits30 = 30, bits63 = 63 };
+
+/// How to build a tree.
+struct BuildOptions {
+    Levels levels = Levels::automatic; ///< automatic: two when a mesh is placed more than once, else one.
+    Layout layout = Layout::wide8;
+    MortonBits morton = MortonBits::bits30;
+};
+
+/// What a build measured.
+struct BuildReport {
+    Profile profile;       ///< Stages: bounds, morton, sort, hierarchy, volumes, collapse, top_level.
+    double total_ms = 0.0; ///< Wall clock of the whole build, uploads included, compilation not.
+    double compile_ms = 0.0;
+    std::uint64_t peak_device_bytes = 0;
+    double sah = 0.0;        ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
+    double sum_volume = 0.0; ///< Of the boxes of all binary nodes, both levels (object space below, world above).
+    double sum_area = 0.0;
+    std::uint32_t max_depth = 0; ///< Of the layout, bottom plus top level.
+    std::uint64_t nodes = 0;     ///< Of the layout, both levels.
+};
+
+/// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
+/// both numbers, before the work, when it does not fit. O(n) work in the number of primitives but for the sort's passes
+/// (dissertation 3.3, 3.6).
+Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
+
+} // namespace boxwood

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Rays for rendering and measuring: from a camera, and from the hits of other rays.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "boxwood/geometry.hpp"
+#include "shared/ray.h"
+
+namespace boxwood {
+
+/// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf).
+/// `rays` has width * height elements.
+void primary_rays(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
+                  BufferView<Ray> rays);
+
+/// For every hit a ray from the hit point into a cosine-distributed direction on the side that `rays` came from; for
+/// every miss a ray that hits nothing (zero direction). Depends on (seed, index) alone. The origin is moved off the
+/// surface by a distance relative to the magnitudes that made it, so that it does not hit its own triangle.
+void diffuse_rays(Device& device, const Geometry& geometry, BufferView<const Ray> rays, BufferView<const Hit> hits,
+                  std::uint64_t seed, BufferView<Ray> out);
+
+/// For every hit the segment from the hit point (moved off the surface as above) to `light`: unnormalised direction,
+/// t in [0, 1); for every miss a ray that hits nothing.
+void shadow_rays(Device& device, const Geometry& geometry, BufferView<const Ray> rays, BufferView<const Hit> hits,
+                 const glm::vec3& light, BufferView<Ray> out);
+
+/// A perspective camera that sees all of the scene from outside, looking along (-1, -0.6, -1.2); for scenes without
+/// one. An empty scene gives the unit view.
+Camera default_camera(const Scene& scene);
+
+} // namespace boxwood

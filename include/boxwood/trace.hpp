@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "boxwood/tree.hpp"
+#include "shared/ray.h"
+
+namespace boxwood {
+
+/// How traversal kernels are specialised.
+struct TraceOptions {
+    bool portable_lanes = false; ///< Portable mask reduction in place of the device's own instruction.
+};
+
+/// For every ray the closest hit: the smallest t, and among equal t the lowest (instance, primitive), so that the
+/// answer does not depend on the tree. One launch. `hits` has rays.size() elements.
+void closest_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits,
+                 const TraceOptions& options = {});
+
+/// closest_hit that also counts the volumes and primitives tested, by a program of its own.
+void closest_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits,
+                 BufferView<RayStatistics> statistics, const TraceOptions& options = {});
+
+/// For every ray 1 when it hits anything in its interval, else 0.
+void any_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<std::uint32_t> hits,
+             const TraceOptions& options = {});
+
+} // namespace boxwood
