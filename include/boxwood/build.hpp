@@ -4,13 +4,11 @@
 #include <cstdint>
 
 #include "boxwood/device.hpp"
+#include "boxwood/morton.hpp"
 #include "boxwood/scene.hpp"
 #include "boxwood/tree.hpp"
 
 namespace boxwood {
-
-/// Length of Morton codes: 30 bits (10 per axis) or 63 (21 per axis).
-enum class MortonBits { bits30 = 30, bits63 = 63 };
 
 /// How to build a tree.
 struct BuildOptions {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "hierarchy/capacity.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "boxwood/error.hpp"
+#include "shared/aabb.h"
+#include "shared/instance.h"
+
+namespace boxwood {
+
+namespace {
+
+/// Node indices (two per primitive) and a mark share 32 bits.
+constexpr std::uint64_t most_primitives = (1u << 30) - 1;
+
+struct Need {
+    const char* what;
+    std::uint64_t bytes;
+};
+
+void check_each(const Device& device, std::initializer_list<Need> needs) {
+    for (const Need& need : needs)
+        if (need.bytes > device.info().largest_buffer_bytes)
+            throw CapacityError("bytes in one buffer of " + device.info().name + " for " + need.what, need.bytes,
+                                device.info().largest_buffer_bytes);
+}
+
+} // namespace
+
+void check_capacity(const Device& device, Layout layout, std::uint64_t triangles, std::uint64_t vertices,
+                    std::uint64_t instances) {
+    for (const std::uint64_t primitives : {triangles, instances})
+        if (primitives > most_primitives)
+            throw CapacityError("primitives in one level of a tree", primitives, most_primitives);
+
+    const std::uint64_t positions = 12 * vertices, indices = 12 * triangles;
+    const std::uint64_t volumes = 2 * sizeof(Aabb) * triangles, topology = 24 * triangles;
+    const std::uint64_t binary_nodes = sizeof(BinaryNode) * triangles, records = sizeof(Triangle) * triangles;
+    const std::uint64_t costs = 32 * triangles, blocks = sizeof(Triangle4) * (triangles / 4);
+    const std::uint64_t placed = sizeof(InstanceRecord) * instances, top = 2 * sizeof(Aabb) * instances;
+    check_each(device, {{"vertex positions", positions},
+                        {"triangle indices", indices},
+                        {"boxes of nodes", volumes},
+                        {"instances", placed},
+                        {"boxes of the top level", top}});
+    if (layout == Layout::binary)
+        check_each(device, {{"binary nodes", binary_nodes}, {"triangle records", records}});
+    else
+        check_each(device, {{"collapse costs", costs}, {"triangle blocks", blocks}});
+
+    // What is held at once at the least: while the layout is written from topology and volumes.
+    const std::uint64_t least = positions + indices + volumes + topology + placed +
+                                (layout == Layout::binary ? binary_nodes + records : blocks);
+    const std::uint64_t available =
+        device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
+    if (least > available)
+        throw CapacityError("bytes of memory of " + device.info().name + " for the build", least, available);
+}
+
+} // namespace boxwood

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <utility>
+#include <vector>
+
+#include "boxwood/collapse.hpp"
+#include "boxwood/scan.hpp"
+#include "runtime/launch.hpp"
+
+namespace boxwood {
+
+namespace {
+
+/// Children chosen for the wide nodes of one level, before they are written.
+struct Level {
+    std::uint32_t size = 0;
+    Buffer<std::uint32_t> kids;         ///< 8 per node
+    Buffer<std::uint32_t> inner_starts; ///< Exclusive scans of how many inner children and leaves each node has;
+    Buffer<std::uint32_t> leaf_starts;  ///< one entry more than nodes, the last is the total.
+};
+
+struct Collapse {
+    Device& device;
+    const Topology& topology;
+    BufferView<const Aabb> volumes;
+    const Geometry* geometry; ///< null for trees over instances
+    Buffer<float> costs;
+    std::uint32_t count = static_cast<std::uint32_t>(topology.size());
+
+    KernelRef kernel(const char* name) const {
+        Defines defines = cost_model();
+        defines["TRIANGLE_LEAVES"] = geometry ? "1" : "0";
+        return {"hierarchy/collapse_wide.cl", name, defines};
+    }
+
+    /// Testing a block of four triangles takes about as long as testing eight boxes; an instance stands for a tree.
+    Defines cost_model() const {
+        return {{"LEAF_SIZE", geometry ? "4" : "1"}, {"NODE_COST", "1.0f"}, {"LEAF_COST", geometry ? "1.0f" : "4.0f"}};
+    }
+};
+
+Buffer<float> subtree_costs(const Collapse& c) {
+    // Eight floats for each inner node can pass the largest buffer before anything else here does.
+    Buffer<float> costs = make_scratch<float>(c.device, 8 * static_cast<std::size_t>(c.count), "collapse costs");
+    const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(c.device, c.count, "arrivals at splits");
+    fill<std::uint32_t>(c.device, arrivals, 0);
+    const Slices slices = cut(c.device, c.count);
+    launch(c.device, {"hierarchy/collapse_cost.cl", "collapse_cost", c.cost_model()}, "collapse costs", slices.slices,
+           c.volumes, c.topology.children, c.topology.parents, c.topology.far_ends, arrivals, costs, c.count,
+           slices.length);
+    return costs;
+}
+
+/// The binary nodes that become the wide roots: the root of tree t, or its leaf if that is all.
+Buffer<std::uint32_t> roots(const Collapse& c) {
+    const auto trees = static_cast<std::uint32_t>(c.topology.trees());
+    Buffer<std::uint32_t> sources = make_scratch<std::uint32_t>(c.device, trees, "wide roots");
+    launch(c.device, c.kernel("root_sources"), "wide roots", trees, c.topology.offsets, sources, trees, c.count);
+    return sources;
+}
+
+Level choose_children(const Collapse& c, BufferView<const std::uint32_t> sources) {
+    Level level;
+    level.size = static_cast<std::uint32_t>(sources.size());
+    level.kids = make_scratch<std::uint32_t>(c.device, 8 * sources.size(), "children of a level");
+    level.inner_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "inner children of a level");
+    level.leaf_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "leaves of a level");
+    launch(c.device, c.kernel("choose_children"), "choose children", level.size + 1, c.volumes, c.topology.children,
+           c.topology.far_ends, c.costs, sources, level.kids, level.inner_starts, level.leaf_starts, c.count,
+           level.size);
+    exclusive_scan<std::uint32_t>(c.device, level.inner_starts, Operator::sum, level.inner_starts);
+    exclusive_scan<std::uint32_t>(c.device, level.leaf_starts, Operator::sum, level.leaf_starts);
+    return level;
+}
+
+/// Totals of a level: {inner children, leaves}. Waits.
+cl_uint2 totals(const Collapse& c, const Level& level, BufferView<cl_uint2> place) {
+    launch(c.device, c.kernel("level_totals"), "level totals", 1, level.inner_starts, level.leaf_starts, place,
+           level.size);
+    return download<cl_uint2>(c.device, place)[0];
+}
+
+std::vector<Level> choose_levels(const Collapse& c, std::vector<cl_uint2>& sizes) {
+    const Buffer<cl_uint2> place = make_scratch<cl_uint2>(c.device, 1, "level totals");
+    std::vector<Level> levels;
+    Buffer<std::uint32_t> sources = roots(c);
+    while (sources.size() > 0) {
+        levels.push_back(choose_children(c, sources));
+        const Level& level = levels.back();
+        sizes.push_back(totals(c, level, place));
+        Buffer<std::uint32_t> next = make_scratch<std::uint32_t>(c.device, sizes.back().x, "sources of a level");
+        if (next.size() > 0)
+            launch(c.device, c.kernel("next_level"), "next level", level.size, level.kids, level.inner_starts, next,
+                   level.size);
+        sources = std::move(next);
+    }
+    return levels;
+}
+
+void write_levels(const Collapse& c, const std::vector<Level>& levels, const std::vector<cl_uint2>& sizes,
+                  const WideLayout& layout) {
+    std::uint32_t first_node = 0, first_leaf = 0;
+    const auto trees = static_cast<std::uint32_t>(c.topology.trees());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const Level& level = levels[i];
+        if (c.geometry)
+            launch(c.device, c.kernel("write_level"), "wide nodes and leaves", level.size, c.volumes,
+                   c.topology.far_ends, c.topology.order, level.kids, level.inner_starts, layout.nodes, c.count,
+                   level.size, first_node, level.leaf_starts, c.topology.offsets, c.geometry->positions,
+                   c.geometry->triangles, layout.blocks, trees, first_leaf);
+        else
+            launch(c.device, c.kernel("write_level"), "wide nodes", level.size, c.volumes, c.topology.far_ends,
+                   c.topology.order, level.kids, level.inner_starts, layout.nodes, c.count, level.size, first_node);
+        first_node += level.size;
+        first_leaf += sizes[i].y;
+    }
+}
+
+WideLayout collapse(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
+                    const Geometry* geometry) {
+    Collapse c{device, topology, volumes, geometry, {}};
+    c.costs = subtree_costs(c);
+    std::vector<cl_uint2> sizes;
+    const std::vector<Level> levels = choose_levels(c, sizes);
+    c.costs = {};
+
+    std::size_t nodes = 0, leaves = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        nodes += levels[i].size;
+        leaves += sizes[i].y;
+    }
+    WideLayout layout;
+    layout.nodes = make_buffer<Wide8Node>(device, nodes, "wide nodes");
+    if (geometry) layout.blocks = make_buffer<Triangle4>(device, leaves, "triangle blocks");
+    layout.depth = static_cast<std::uint32_t>(levels.size());
+    write_levels(c, levels, sizes, layout);
+    return layout;
+}
+
+} // namespace
+
+WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
+                         const Geometry& geometry) {
+    return collapse(device, topology, volumes, &geometry);
+}
+
+WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes) {
+    return collapse(device, topology, volumes, nullptr);
+}
+
+} // namespace boxwood

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "hierarchy/forest.hpp"
+
+#include <utility>
+
+#include "boxwood/lbvh.hpp"
+#include "boxwood/radix_sort.hpp"
+#include "boxwood/reduce.hpp"
+#include "boxwood/segmented_reduce.hpp"
+#include "boxwood/volumes.hpp"
+
+namespace boxwood {
+
+namespace {
+
+Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets) {
+    const std::size_t trees = offsets.size() - 1;
+    Buffer<Aabb> bounds = make_scratch<Aabb>(device, trees, "bounds of trees");
+    if (trees == 1)
+        reduce<Aabb>(device, boxes, Operator::sum, bounds);
+    else
+        segmented_reduce<Aabb>(device, boxes, offsets, Operator::sum, bounds);
+    return bounds;
+}
+
+template <class Key>
+Forest build_with_keys(Device& device, BufferView<const Aabb> boxes, Buffer<std::uint32_t> offsets, KeyFormat format,
+                       const std::string& stage) {
+    const auto named = [&](const char* own) { return Stage(device, stage.empty() ? own : stage); };
+    Forest forest;
+    {
+        const Stage bounds = named("bounds");
+        forest.tree_bounds = bounds_of_trees(device, boxes, offsets);
+    }
+    Buffer<Key> keys = make_scratch<Key>(device, boxes.size(), "Morton keys");
+    Buffer<std::uint32_t> order = make_scratch<std::uint32_t>(device, boxes.size(), "sorted order");
+    {
+        const Stage morton = named("morton");
+        morton_keys<Key>(device, boxes, offsets, forest.tree_bounds, format, keys, order);
+    }
+    {
+        const Stage sort = named("sort");
+        radix_sort<Key>(device, keys, order, 0, format.key_bits);
+    }
+    {
+        const Stage hierarchy = named("hierarchy");
+        forest.topology = lbvh<Key>(device, keys, format, std::move(order), std::move(offsets));
+    }
+    const Stage volumes = named("volumes");
+    forest.volumes = aabb_volumes(device, forest.topology, boxes);
+    return forest;
+}
+
+} // namespace
+
+Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
+                    MortonBits morton, const std::string& stage) {
+    const std::size_t trees = offsets.size() - 1;
+    const KeyFormat format = key_format(morton, trees);
+    Buffer<std::uint32_t> starts = upload(device, offsets, "offsets of trees");
+    // The device's own sort is faster on short keys; a forest keeps the tree in the upper half of a long one.
+    if (trees == 1 && format.key_bits <= 32)
+        return build_with_keys<std::uint32_t>(device, boxes, std::move(starts), format, stage);
+    return build_with_keys<std::uint64_t>(device, boxes, std::move(starts), format, stage);
+}
+
+} // namespace boxwood

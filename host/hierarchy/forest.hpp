@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "boxwood/morton.hpp"
+#include "boxwood/topology.hpp"
+#include "shared/aabb.h"
+
+namespace boxwood {
+
+/// Binary trees with their boxes: what every layout is made from.
+struct Forest {
+    Topology topology;
+    Buffer<Aabb> tree_bounds; ///< One box per tree.
+    Buffer<Aabb> volumes;     ///< As from aabb_volumes.
+};
+
+/// Builds one linear BVH per range [offsets[t], offsets[t + 1]) of `boxes`, all in the same launches (dissertation 3.3,
+/// 3.6.1). No range is empty. With a `stage` all launches count under it; without, each under its own.
+Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
+                    MortonBits morton, const std::string& stage = "");
+
+} // namespace boxwood
