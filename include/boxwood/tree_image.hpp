@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "boxwood/scene.hpp"
 #include "shared/instance.h"
 #include "shared/node.h"
 #include "shared/triangle.h"
@@ -48,10 +49,13 @@ struct TreeImage {
     std::uint32_t top_depth = 0;
 };
 
-/// Throws InputError(file, element, what) unless every reference is in range, every tree is a tree within its stated
-/// depth and its leaves name existing primitives and instances of `scene_*` counts, so that traversal of it is safe.
-/// O(nodes).
-void validate(const TreeImage& tree, const std::string& file, std::uint64_t instance_count,
-              std::uint64_t triangle_count);
+/// Throws InputError(file, element, what) unless traversal of `tree` is safe and finds every triangle of `scene`, which
+/// must itself be valid: exactly the arrays of the layout and levels are filled; every reference is in range and no node
+/// or leaf is reached twice; depths are as stated; boxes are ordered and not NaN, unused slots as shared/node.h and
+/// shared/triangle.h say; every primitive that an instance reaches is in exactly one leaf, within its mesh for two
+/// levels and within flatten(scene) for one; instance records agree with scene.instances. Nodes that no root reaches are
+/// not read, and a mesh without an instance may be what bottom_depth counts. Does not compare boxes or triangles with the
+/// scene's positions. O(nodes + triangles + instances) time, a bit each of memory.
+void validate(const TreeImage& tree, const Scene& scene, const std::string& file);
 
 } // namespace boxwood

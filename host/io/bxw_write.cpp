@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <ostream>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+#include "io/bxw_format.hpp"
+#include "io/bxw_scene.hpp"
+
+namespace boxwood {
+
+namespace bxw {
+
+namespace {
+
+/// A section's bytes, where they already lie in memory.
+using Parts = std::vector<std::span<const std::byte>>;
+
+template <class T>
+Parts one_part(const std::vector<T>& elements) {
+    return {std::as_bytes(std::span(elements))};
+}
+
+TreeRecord record_of(const TreeImage& tree) {
+    return {tree.layout == Layout::binary ? 0u : 1u, tree.levels == Levels::one ? 1u : 2u, tree.bottom_depth,
+            tree.top_depth};
+}
+
+std::vector<SectionEntry> table_of(std::span<const Parts> sections) {
+    std::vector<SectionEntry> table(sections.size());
+    std::uint64_t offset = sizeof(Header) + table.size() * sizeof(SectionEntry);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        Checksum sum;
+        std::uint64_t size = 0;
+        for (const auto& part : sections[i]) {
+            sum.add(part.data(), part.size());
+            size += part.size();
+        }
+        table[i] = {padded(section_kinds[i].name), offset, size, section_kinds[i].element_size, sum.value()};
+        offset += size;
+    }
+    return table;
+}
+
+void put(std::ostream& out, std::span<const std::byte> bytes) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+} // namespace
+
+void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
+    const std::string outline = encode_scene(scene);
+    const TreeRecord record = record_of(tree);
+    Parts positions;
+    Parts triangles;
+    for (const Mesh& mesh : scene.meshes) {
+        positions.push_back(std::as_bytes(std::span(mesh.positions)));
+        triangles.push_back(std::as_bytes(std::span(mesh.triangles)));
+    }
+    // In the order of section_kinds.
+    const std::array<Parts, section_kinds.size()> sections = {Parts{std::as_bytes(std::span(outline))},
+                                                              std::move(positions),
+                                                              std::move(triangles),
+                                                              Parts{std::as_bytes(std::span(&record, 1))},
+                                                              one_part(tree.binary_nodes),
+                                                              one_part(tree.triangles),
+                                                              one_part(tree.wide_nodes),
+                                                              one_part(tree.blocks),
+                                                              one_part(tree.binary_top),
+                                                              one_part(tree.wide_top),
+                                                              one_part(tree.instances)};
+    const std::vector<SectionEntry> table = table_of(sections);
+    Header header{magic, bxw_version, static_cast<std::uint32_t>(table.size()), table.back().offset + table.back().size,
+                  0};
+    header.checksum = table_checksum(header, table);
+    put(out, std::as_bytes(std::span(&header, 1)));
+    put(out, std::as_bytes(std::span(table)));
+    for (const Parts& parts : sections) {
+        for (const auto& part : parts) put(out, part);
+    }
+}
+
+} // namespace bxw
+
+void save_bxw(const std::filesystem::path& file, const Scene& scene, const TreeImage& tree) {
+    validate(scene, file.string());
+    validate(tree, scene, file.string());
+    AtomicFile out(file);
+    bxw::write(out.stream(), scene, tree);
+    out.commit();
+}
+
+} // namespace boxwood
