@@ -277,10 +277,10 @@ void check_bottom_level(const TreeImage& tree, const Scene& scene, const std::ve
     for (std::size_t i = 0; i < tree.instances.size(); ++i) {
         const InstanceRecord& record = tree.instances[i];
         check_instance(record, scene.instances[i], i, file);
-        if (record.root == roots[record.mesh]) continue;
         const auto fail = [&](const char* what) { throw InputError(file, element("instances", i) + ".root", what); };
-        if (roots[record.mesh] != BOXWOOD_NONE) fail("differs from that of another instance of the mesh");
         if (record.root >= nodes.size()) fail("is out of range");
+        if (record.root == roots[record.mesh]) continue;
+        if (roots[record.mesh] != BOXWOOD_NONE) fail("differs from that of another instance of the mesh");
         if (walker.reached(record.root)) fail("is a node of another mesh's tree");
         roots[record.mesh] = record.root;
         const PrimitiveSet primitives{seen, first[record.mesh], first[record.mesh + 1] - first[record.mesh]};

@@ -17,7 +17,7 @@ namespace {
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
     static std::atomic<unsigned> count{0};
     std::filesystem::path temporary = path;
-    temporary += "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".tmp";
+    temporary += '.' + std::to_string(::getpid()) + '.' + std::to_string(count++) + ".tmp";
     return temporary;
 }
 

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include <cstring>
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "boxwood/error.hpp"
+#include "io/bxw_parts.hpp"
+#include "io/samples.hpp"
+
+TEST_SUITE_BEGIN("io");
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+namespace {
+
+constexpr std::array<Layout, 2> layouts = {Layout::binary, Layout::wide8};
+constexpr std::array<Levels, 2> level_choices = {Levels::one, Levels::two};
+
+/// The InputError of reading `bytes`: "where: what", or "accepted".
+std::string refusal(const std::string& bytes) {
+    try {
+        read_bxw(bytes);
+    } catch (const InputError& error) {
+        CHECK(error.file == "test.bxw");
+        return error.what();
+    }
+    return "accepted";
+}
+
+bool mentions(const std::string& text, const std::string& word) { return text.find(word) != std::string::npos; }
+
+std::string sample_bytes(Layout layout, Levels levels) {
+    const Scene scene = sample_scene();
+    return bxw_bytes(scene, sample_tree(scene, layout, levels));
+}
+
+/// Overwrites the bytes of `text` at `offset` with those of `value`.
+template <class T>
+void poke(std::string& text, std::size_t offset, T value) {
+    REQUIRE(offset + sizeof value <= text.size());
+    std::memcpy(text.data() + offset, &value, sizeof value);
+}
+
+constexpr std::size_t scene_section = 0;
+constexpr std::size_t positions_section = 1;
+constexpr std::size_t triangles_section = 2;
+constexpr std::size_t tree_section = 3;
+constexpr std::size_t binary_nodes_section = 4;
+
+} // namespace
+
+TEST_CASE("a .bxw file gives back scene and tree, bit for bit") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "sample.bxw";
+    for (const Layout layout : layouts) {
+        for (const Levels levels : level_choices) {
+            CAPTURE(name(layout));
+            CAPTURE(name(levels));
+            const Scene scene = sample_scene();
+            const TreeImage tree = sample_tree(scene, layout, levels);
+            save_bxw(file, scene, tree);
+            const BxwFile loaded = load_bxw(file);
+            CHECK(same(loaded.scene, scene));
+            CHECK(same(loaded.tree, tree));
+            CHECK(is_bxw(file));
+        }
+    }
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("an empty scene and its empty tree make a .bxw file") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "empty.bxw";
+    for (const Levels levels : level_choices) {
+        const TreeImage tree = sample_tree({}, Layout::wide8, levels);
+        save_bxw(file, {}, tree);
+        const BxwFile loaded = load_bxw(file);
+        CHECK(same(loaded.scene, Scene{}));
+        CHECK(same(loaded.tree, tree));
+    }
+}
+
+TEST_CASE("a tree that does not fit the scene is not written") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "bad.bxw";
+    const Scene scene = sample_scene();
+    TreeImage tree = sample_tree(scene, Layout::wide8, Levels::two);
+    tree.blocks[0].primitive[0] = 1; // the mesh has one triangle
+    CHECK_THROWS_AS(save_bxw(file, scene, tree), InputError);
+    CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("the file on disk has the documented layout") {
+    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    CHECK(bytes.substr(0, 8) == "\x89"
+                                "BXW\r\n\x1a\n");
+    CHECK(bytes.substr(8, 4) == std::string("\x01\0\0\0", 4));  // version 1, little-endian
+    CHECK(bytes.substr(12, 4) == std::string("\x0b\0\0\0", 4)); // eleven sections
+    CHECK(std::string(bytes.data() + 32) == "scene");
+    // 32 bytes of header and 11 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    const auto table = table_of(bytes);
+    CHECK(table[0].offset == 560);
+    CHECK(table[1].size == 42 * 12);
+    float x = 0;
+    std::memcpy(&x, bytes.data() + table[1].offset + 12, sizeof x);
+    CHECK(x == 1.0f); // second vertex of the first mesh
+}
+
+TEST_CASE("a .bxw file cut at any byte is refused") {
+    for (const Layout layout : layouts) {
+        const std::string bytes = sample_bytes(layout, Levels::two);
+        for (std::size_t size = 0; size < bytes.size(); ++size) {
+            CAPTURE(size);
+            const std::string what = refusal(bytes.substr(0, size));
+            CHECK(mentions(what, size < 8 ? "not a .bxw file" : "truncated"));
+        }
+    }
+}
+
+TEST_CASE("a .bxw file with any byte flipped is refused") {
+    for (const Layout layout : layouts) {
+        std::string bytes = sample_bytes(layout, Levels::two);
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            CAPTURE(i);
+            const char byte = bytes[i];
+            for (const int mask : {0x01, 0x80, 0xff}) {
+                bytes[i] = static_cast<char>(byte ^ mask);
+                CHECK(refusal(bytes) != "accepted");
+            }
+            bytes[i] = byte;
+        }
+        CHECK(refusal(bytes) == "accepted");
+    }
+}
+
+TEST_CASE("a .bxw file with bytes behind its end is refused") {
+    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    CHECK(mentions(refusal(bytes + '\0'), "trailing"));
+    CHECK(mentions(refusal(bytes + bytes), "trailing"));
+}
+
+TEST_CASE("a file that ends earlier than its size said is refused") { // it shrank while it was read
+    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    std::istringstream in(bytes.substr(0, bytes.size() - 1));
+    CHECK_THROWS_AS(bxw::read(in, bytes.size(), "test.bxw"), InputError);
+}
+
+TEST_CASE("a newer .bxw file is refused as newer, whatever follows its version") {
+    std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    poke(bytes, 8, bxw_version + 1);
+    CHECK(mentions(refusal(bytes), "newer"));
+    CHECK(mentions(refusal(bytes.substr(0, 12)), "newer"));
+    poke(bytes, 8, 0u);
+    CHECK(mentions(refusal(bytes), "no such format version"));
+}
+
+TEST_CASE("what is not a .bxw file is told apart and refused by its name") {
+    const TemporaryFolder folder;
+    const auto refused = [](const std::filesystem::path& file) {
+        try {
+            load_bxw(file);
+        } catch (const InputError& error) {
+            return error.file == file.string();
+        }
+        return false;
+    };
+    for (const std::string& bytes : {std::string(), std::string("glTF"), std::string(1000, '\0')}) {
+        const auto file = folder.path() / "other";
+        write_bytes(file, bytes);
+        CHECK_FALSE(is_bxw(file));
+        CHECK(refused(file));
+    }
+    CHECK_FALSE(is_bxw(folder.path() / "missing"));
+    CHECK(refused(folder.path() / "missing"));
+    CHECK_FALSE(is_bxw(folder.path()));
+    CHECK(refused(folder.path()));
+    CHECK_FALSE(is_bxw("/dev/zero"));
+    CHECK(refused("/dev/zero"));
+}
+
+TEST_CASE("a section table that lies is refused, its checksum being right") {
+    const std::string bytes = sample_bytes(Layout::binary, Levels::two);
+    const auto sections = sections_of(bytes);
+    const auto table = table_of(bytes);
+    REQUIRE(seal(sections) == bytes);
+    using Change = std::function<void(std::vector<bxw::SectionEntry>&)>;
+    const std::vector<Change> changes = {
+        [](auto& t) { t.pop_back(); },
+        [](auto& t) { t.push_back(t.back()); },
+        [](auto& t) { std::swap(t[1], t[2]); },
+        [](auto& t) { t[0].name[15] = 'x'; },
+        [](auto& t) { t[4].element_size = 32; },
+        [](auto& t) { t[4].element_size = 0; },
+        [](auto& t) { t[1].offset += 1; },
+        [](auto& t) { t[5].offset = 0; },
+        [](auto& t) { t[1].size += 12; },
+        [](auto& t) { t[1].size -= 12; },
+        [](auto& t) { t[1].size -= 1; },
+        [](auto& t) { t[1].size = ~std::uint64_t{0} / 12 * 12; }, // its end wraps around
+        [](auto& t) { t[1].checksum ^= 1; },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        CAPTURE(i);
+        auto changed = table;
+        changes[i](changed);
+        CHECK(refusal(seal(changed, sections)) != "accepted");
+    }
+}
+
+TEST_CASE("counts beyond their section are refused before memory is taken") {
+    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    // Offsets follow from bxw_scene.hpp: three counts, the mesh count, then the first mesh ("one") and its sizes.
+    constexpr std::size_t mesh_count = 24;
+    constexpr std::size_t name_size = 32;
+    constexpr std::size_t vertices = 43;
+    constexpr std::size_t triangles = 51;
+    for (const std::size_t offset : {mesh_count, name_size, vertices, triangles}) {
+        for (const std::uint64_t count : {std::uint64_t{1} << 40, ~std::uint64_t{0}, std::uint64_t{1} << 63}) {
+            CAPTURE(offset);
+            CAPTURE(count);
+            auto sections = original;
+            poke(sections[scene_section], offset, count);
+            CHECK(refusal(seal(sections)) != "accepted");
+        }
+    }
+    auto sections = original;
+    sections[scene_section] += '\0';
+    CHECK(mentions(refusal(seal(sections)), "section scene"));
+}
+
+TEST_CASE("the scene section is refused when it is cut at any byte") {
+    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    for (std::size_t size = 0; size < original[scene_section].size(); ++size) {
+        CAPTURE(size);
+        auto sections = original;
+        sections[scene_section].resize(size);
+        CHECK(mentions(refusal(seal(sections)), "section scene"));
+    }
+}
+
+TEST_CASE("a hostile element is refused although every checksum is right") {
+    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    const auto hostile = [&](auto&& change) {
+        auto sections = original;
+        change(sections);
+        return refusal(seal(sections));
+    };
+    CHECK(hostile([](auto&) {}) == "accepted");
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(hostile([&](auto& s) { poke(s[positions_section], 0, nan); }) != "accepted");
+    CHECK(hostile([](auto& s) { poke(s[triangles_section], 0, 3u); }) != "accepted"); // of 3 vertices
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 0, 2u); }), "layout"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));
+    CHECK(mentions(hostile([](auto& s) { s[tree_section] += s[tree_section]; }), "section tree"));
+    CHECK(mentions(hostile([](auto& s) { s[tree_section].clear(); }), "section tree"));
+    // child[0] of the first node lies behind its two boxes
+    CHECK(mentions(hostile([](auto& s) { poke(s[binary_nodes_section], 48, BOXWOOD_LEAF | 1000u); }),
+                   "binary_nodes[0].child[0]"));
+    CHECK(mentions(hostile([&](auto& s) { poke(s[binary_nodes_section], 0, nan); }), "binary_nodes[0].child[0]"));
+}
+
+TEST_CASE("whatever an attacker writes over one word, reading refuses it or gives a tree that validates") {
+    // All four arrangements, every word, the values that break index arithmetic.
+    std::size_t accepted = 0;
+    std::size_t refused = 0;
+    for (const Layout layout : layouts) {
+        for (const Levels levels : level_choices) {
+            const auto original = sections_of(sample_bytes(layout, levels));
+            for (std::size_t section = 0; section < original.size(); ++section) {
+                for (std::size_t offset = 0; offset + 4 <= original[section].size(); offset += 4) {
+                    for (const std::uint32_t value : {0u, 1u, 0x80000000u, 0xffffffffu, 0x7f800000u}) {
+                        auto sections = original;
+                        poke(sections[section], offset, value);
+                        try {
+                            const BxwFile loaded = read_bxw(seal(sections));
+                            validate(loaded.tree, loaded.scene, "test.bxw");
+                            ++accepted;
+                        } catch (const InputError&) {
+                            ++refused;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    // Neither kind of word may be absent, or the loop has not tried what it says.
+    CHECK(accepted > 1000);
+    CHECK(refused > 1000);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "io/samples.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+namespace boxwood::test {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr Aabb empty_box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+/// A box and the child reference that it belongs to.
+struct Item {
+    Aabb box;
+    std::uint32_t reference;
+};
+
+void grow(Aabb& box, const glm::vec3& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::min(box.min[axis], point[axis]);
+        box.max[axis] = std::max(box.max[axis], point[axis]);
+    }
+}
+
+Aabb box_of(std::span<const Item> items) {
+    Aabb box = empty_box;
+    for (const Item& item : items) {
+        grow(box, {item.box.min[0], item.box.min[1], item.box.min[2]});
+        grow(box, {item.box.max[0], item.box.max[1], item.box.max[2]});
+    }
+    return box;
+}
+
+void set_slot(BinaryNode& node, std::size_t slot, const Item& item) {
+    node.bounds[slot] = item.box;
+    node.child[slot] = item.reference;
+}
+
+void set_slot(Wide8Node& node, std::size_t slot, const Item& item) {
+    node.min_x[slot] = item.box.min[0];
+    node.min_y[slot] = item.box.min[1];
+    node.min_z[slot] = item.box.min[2];
+    node.max_x[slot] = item.box.max[0];
+    node.max_y[slot] = item.box.max[1];
+    node.max_z[slot] = item.box.max[2];
+    node.child[slot] = item.reference;
+}
+
+void set_count(BinaryNode&, std::size_t) {}
+void set_count(Wide8Node& node, std::size_t count) { node.count = static_cast<std::uint32_t>(count); }
+
+/// Appends the tree over `items`, root first, and returns its depth.
+template <class Node>
+std::uint32_t append_tree(std::vector<Node>& nodes, std::span<const Item> items) {
+    constexpr std::size_t width = std::is_same_v<Node, BinaryNode> ? 2 : 8;
+    const std::size_t self = nodes.size();
+    nodes.emplace_back();
+    for (std::size_t slot = 0; slot < width; ++slot) set_slot(nodes[self], slot, {empty_box, BOXWOOD_NONE});
+    const std::size_t used = std::min(width, items.size());
+    set_count(nodes[self], used);
+    std::uint32_t depth = 1;
+    for (std::size_t slot = 0; slot < used; ++slot) {
+        const std::size_t first = items.size() * slot / used;
+        const auto part = items.subspan(first, items.size() * (slot + 1) / used - first);
+        Item item{box_of(part), part.front().reference};
+        if (part.size() > 1) {
+            item.reference = static_cast<std::uint32_t>(nodes.size());
+            depth = std::max(depth, 1 + append_tree(nodes, part));
+        }
+        set_slot(nodes[self], slot, item);
+    }
+    return depth;
+}
+
+using Corners = std::array<glm::vec3, 3>;
+
+std::vector<Corners> triangles_of(const Mesh& mesh, const glm::mat4& transform) {
+    std::vector<Corners> triangles;
+    for (const glm::uvec3& indices : mesh.triangles) {
+        Corners corners;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3 position = mesh.positions[indices[i]];
+            corners[static_cast<std::size_t>(i)] = glm::vec3(transform * glm::vec4(position, 1.0f));
+        }
+        triangles.push_back(corners);
+    }
+    return triangles;
+}
+
+std::vector<Item> append_leaves(std::vector<Triangle>& leaves, const std::vector<Corners>& triangles) {
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto& [a, b, c] = triangles[i];
+        const glm::vec3 e = b - a;
+        const glm::vec3 f = c - a;
+        items.push_back({empty_box, BOXWOOD_LEAF | static_cast<std::uint32_t>(leaves.size())});
+        for (const glm::vec3& corner : triangles[i]) grow(items.back().box, corner);
+        leaves.push_back({{a.x, a.y, a.z}, static_cast<std::uint32_t>(i), {e.x, e.y, e.z}, 0, {f.x, f.y, f.z}, 0});
+    }
+    return items;
+}
+
+std::vector<Item> append_leaves(std::vector<Triangle4>& blocks, const std::vector<Corners>& triangles) {
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t slot = i % 4;
+        if (slot == 0) {
+            items.push_back({empty_box, BOXWOOD_LEAF | static_cast<std::uint32_t>(blocks.size())});
+            blocks.push_back({});
+            std::ranges::fill(blocks.back().primitive, BOXWOOD_NONE);
+        }
+        const auto& [a, b, c] = triangles[i];
+        for (const glm::vec3& corner : triangles[i]) grow(items.back().box, corner);
+        Triangle4& block = blocks.back();
+        block.v0_x[slot] = a.x;
+        block.v0_y[slot] = a.y;
+        block.v0_z[slot] = a.z;
+        block.edge1_x[slot] = b.x - a.x;
+        block.edge1_y[slot] = b.y - a.y;
+        block.edge1_z[slot] = b.z - a.z;
+        block.edge2_x[slot] = c.x - a.x;
+        block.edge2_y[slot] = c.y - a.y;
+        block.edge2_z[slot] = c.z - a.z;
+        block.primitive[slot] = static_cast<std::uint32_t>(i);
+    }
+    return items;
+}
+
+InstanceRecord record_of(const Instance& instance, std::uint32_t root) {
+    InstanceRecord record{};
+    const glm::mat4 inverse = glm::inverse(instance.transform);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            record.to_object[4 * row + column] = inverse[column][row];
+            record.to_world[4 * row + column] = instance.transform[column][row];
+        }
+    }
+    record.mesh = instance.mesh;
+    record.root = root;
+    return record;
+}
+
+template <class Node, class Leaf>
+void build(TreeImage& tree, const Scene& scene, std::vector<Node>& nodes, std::vector<Leaf>& leaves,
+           std::vector<Node>& top) {
+    if (tree.levels == Levels::one) {
+        std::vector<Corners> all;
+        for (const Instance& instance : scene.instances) {
+            const auto part = triangles_of(scene.meshes[instance.mesh], instance.transform);
+            all.insert(all.end(), part.begin(), part.end());
+        }
+        if (!all.empty()) tree.bottom_depth = append_tree<Node>(nodes, append_leaves(leaves, all));
+        return;
+    }
+    std::vector<std::uint32_t> roots;
+    for (const Mesh& mesh : scene.meshes) {
+        roots.push_back(static_cast<std::uint32_t>(nodes.size()));
+        const auto items = append_leaves(leaves, triangles_of(mesh, glm::mat4(1.0f)));
+        tree.bottom_depth = std::max(tree.bottom_depth, append_tree<Node>(nodes, items));
+    }
+    std::vector<Item> items;
+    for (const Instance& instance : scene.instances) {
+        items.push_back({empty_box, BOXWOOD_LEAF | static_cast<std::uint32_t>(items.size())});
+        for (const Corners& corners : triangles_of(scene.meshes[instance.mesh], instance.transform)) {
+            for (const glm::vec3& corner : corners) grow(items.back().box, corner);
+        }
+        tree.instances.push_back(record_of(instance, roots[instance.mesh]));
+    }
+    if (!items.empty()) tree.top_depth = append_tree<Node>(top, items);
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+} // namespace
+
+Scene sample_scene() {
+    Scene scene;
+    scene.meshes.push_back({"one", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+    Mesh strip{"strip", {}, {}};
+    constexpr std::uint32_t triangles = 37;
+    for (std::uint32_t i = 0; i < triangles + 2; ++i) {
+        strip.positions.push_back(
+            {static_cast<float>(i / 2), static_cast<float>(i % 2), 0.25f * static_cast<float>(i)});
+    }
+    for (std::uint32_t i = 0; i < triangles; ++i) strip.triangles.push_back({i, i + 1, i + 2});
+    scene.meshes.push_back(strip);
+    glm::mat4 moved(2.0f); // powers of two: the inverse is exact
+    moved[3] = {4.0f, -8.0f, 16.0f, 1.0f};
+    scene.instances = {{"a", 0, glm::mat4(1.0f)}, {"", 1, moved}, {"c", 0, moved}};
+    scene.cameras = {{"eye", glm::mat4(1.0f), true, 0.5f, 1.0f}, {"flat", glm::mat4(1.0f), false, 0.5f, 3.0f}};
+    scene.counts = {1, 2, 3};
+    scene.warnings = {"skins[0]: rest pose"};
+    return scene;
+}
+
+TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels) {
+    TreeImage tree;
+    tree.layout = layout;
+    tree.levels = levels;
+    if (layout == Layout::binary) {
+        build(tree, scene, tree.binary_nodes, tree.triangles, tree.binary_top);
+    } else {
+        build(tree, scene, tree.wide_nodes, tree.blocks, tree.wide_top);
+    }
+    return tree;
+}
+
+bool same(const Scene& a, const Scene& b) {
+    const auto bits = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+    const auto meshes = [](const Mesh& x, const Mesh& y) {
+        return x.name == y.name && same_bytes(x.positions, y.positions) && same_bytes(x.triangles, y.triangles);
+    };
+    const auto instances = [&](const Instance& x, const Instance& y) {
+        return x.name == y.name && x.mesh == y.mesh && bits(x.transform, y.transform);
+    };
+    const auto cameras = [&](const Camera& x, const Camera& y) {
+        return x.name == y.name && bits(x.to_world, y.to_world) && x.perspective == y.perspective &&
+               bits(x.vertical_fov, y.vertical_fov) && bits(x.half_height, y.half_height);
+    };
+    return std::ranges::equal(a.meshes, b.meshes, meshes) && std::ranges::equal(a.instances, b.instances, instances) &&
+           std::ranges::equal(a.cameras, b.cameras, cameras) && bits(a.counts, b.counts) && a.warnings == b.warnings;
+}
+
+bool same(const TreeImage& a, const TreeImage& b) {
+    return a.layout == b.layout && a.levels == b.levels && same_bytes(a.binary_nodes, b.binary_nodes) &&
+           same_bytes(a.triangles, b.triangles) && same_bytes(a.wide_nodes, b.wide_nodes) &&
+           same_bytes(a.blocks, b.blocks) && same_bytes(a.binary_top, b.binary_top) &&
+           same_bytes(a.wide_top, b.wide_top) && same_bytes(a.instances, b.instances) &&
+           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "boxwood-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder can be made");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::size_t TemporaryFolder::entries() const {
+    const std::filesystem::directory_iterator entries(path_);
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+} // namespace boxwood::test
