@@ -220,7 +220,7 @@ TEST_CASE("a tree that leaves out primitives or instances is refused") {
               root.child[7] = BOXWOOD_NONE;
               root.min_x[7] = root.min_y[7] = root.min_z[7] = infinity;
               root.max_x[7] = root.max_y[7] = root.max_z[7] = -infinity;
-          }) == "root[1]");
+          }) == "wide_nodes[1]");
     CHECK(wide([](TreeImage& t) { t.wide_top.clear(); }) == "wide_top");
     CHECK(binary([](TreeImage& t) { t.binary_top[0] = t.binary_top[1]; }) == "binary_top");
 }

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Checks trees of either layout node by node, for validate(TreeImage).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "boxwood/error.hpp"
+#include "shared/node.h"
+
+namespace boxwood::tree_check {
+
+inline std::string element(std::string_view array, std::uint64_t index) {
+    return std::string(array) + "[" + std::to_string(index) + "]";
+}
+
+// The two layouts seen alike: slots in use, and the box and reference of a slot.
+
+inline std::uint32_t used_slots(const BinaryNode& node) { return node.child[1] == BOXWOOD_NONE ? 1 : 2; }
+inline std::uint32_t used_slots(const Wide8Node& node) { return node.count; }
+
+inline Aabb slot_box(const BinaryNode& node, std::uint32_t slot) { return node.bounds[slot]; }
+inline Aabb slot_box(const Wide8Node& node, std::uint32_t slot) {
+    return {{node.min_x[slot], node.min_y[slot], node.min_z[slot]},
+            {node.max_x[slot], node.max_y[slot], node.max_z[slot]}};
+}
+
+inline bool is_ordered(const Aabb& box) { // false for NaN
+    return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+}
+
+inline bool is_empty(const Aabb& box) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return std::ranges::all_of(box.min, [](float x) { return x == infinity; }) &&
+           std::ranges::all_of(box.max, [](float x) { return x == -infinity; });
+}
+
+template <class Range>
+bool all_zero(const Range& values) {
+    return std::ranges::all_of(values, [](auto value) { return value == 0; });
+}
+
+template <class Range>
+bool all_finite(const Range& values) {
+    return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+}
+
+/// Walks the trees of one node array from their roots; what it has reached stays marked from tree to tree.
+template <class Node>
+class Walker {
+public:
+    /// `parents_first`: a child must come after its parent in the array.
+    Walker(std::span<const Node> nodes, std::string_view array, std::uint64_t leaf_count, bool parents_first,
+           const std::string& file)
+        : nodes_(nodes), array_(array), parents_first_(parents_first), file_(file), node_seen_(nodes.size()),
+          leaf_seen_(leaf_count) {}
+
+    /// Checks the tree under `root`, calls `leaf(index)` for each leaf, and returns the number of nodes on the longest
+    /// path. Not recursive: a hostile tree may be as deep as it has nodes.
+    template <class Leaf>
+    std::uint32_t walk(std::uint32_t root, Leaf&& leaf) {
+        std::uint32_t deepest = 0;
+        node_seen_[root] = true;
+        stack_.assign(1, {root, 1});
+        while (!stack_.empty()) {
+            const auto [index, depth] = stack_.back();
+            stack_.pop_back();
+            deepest = std::max(deepest, depth);
+            const Node& node = nodes_[index];
+            check_slots(node, index, index == root);
+            for (std::uint32_t slot = 0; slot < used_slots(node); ++slot) {
+                const std::uint32_t child = node.child[slot];
+                if (child & BOXWOOD_LEAF) {
+                    leaf(reach_leaf(child & ~BOXWOOD_LEAF, index, slot));
+                } else {
+                    reach_node(child, index, slot);
+                    stack_.push_back({child, depth + 1});
+                }
+            }
+        }
+        return deepest;
+    }
+
+    /// Whether a walk has been at `node`.
+    bool reached(std::uint32_t node) const { return node_seen_[node]; }
+
+private:
+    struct Visit {
+        std::uint32_t node;
+        std::uint32_t depth;
+    };
+
+    [[noreturn]] void fail(std::uint32_t index, const char* what) const {
+        throw InputError(file_, element(array_, index), what);
+    }
+    [[noreturn]] void fail(std::uint32_t index, std::uint32_t slot, const char* what) const {
+        throw InputError(file_, element(element(array_, index) + ".child", slot), what);
+    }
+
+    void check_slots(const Node& node, std::uint32_t index, bool is_root) const {
+        const std::uint32_t used = used_slots(node);
+        if (used == 0 || used > std::size(node.child)) fail(index, "has a child count out of range");
+        if (!all_zero(node.reserved)) fail(index, "has a reserved word that is not zero");
+        if constexpr (std::is_same_v<Node, BinaryNode>) {
+            if (used == 1 && !(is_root && (node.child[0] & BOXWOOD_LEAF))) {
+                fail(index, "has one child, which only the root over one primitive may have");
+            }
+        }
+        for (std::uint32_t slot = 0; slot < std::size(node.child); ++slot) {
+            const bool none = node.child[slot] == BOXWOOD_NONE;
+            if (slot >= used && !(none && is_empty(slot_box(node, slot)))) fail(index, slot, "is unused but not empty");
+            if (slot < used && none) fail(index, slot, "refers to nothing");
+            if (slot < used && !is_ordered(slot_box(node, slot)))
+                fail(index, slot, "has a box that is NaN or inverted");
+        }
+    }
+
+    std::uint32_t reach_leaf(std::uint32_t leaf, std::uint32_t index, std::uint32_t slot) {
+        if (leaf >= leaf_seen_.size()) fail(index, slot, "refers to a leaf out of range");
+        if (leaf_seen_[leaf]) fail(index, slot, "refers to a leaf that another slot refers to");
+        leaf_seen_[leaf] = true;
+        return leaf;
+    }
+
+    void reach_node(std::uint32_t child, std::uint32_t index, std::uint32_t slot) {
+        if (child >= nodes_.size()) fail(index, slot, "refers to a node out of range");
+        if (node_seen_[child]) fail(index, slot, "refers to a node that is reached twice");
+        if (parents_first_ && child <= index) fail(index, slot, "refers to a node that comes before its parent");
+        node_seen_[child] = true;
+    }
+
+    std::span<const Node> nodes_;
+    std::string_view array_;
+    bool parents_first_;
+    const std::string& file_;
+    std::vector<bool> node_seen_;
+    std::vector<bool> leaf_seen_;
+    std::vector<Visit> stack_;
+};
+
+} // namespace boxwood::tree_check
