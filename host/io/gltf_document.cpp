@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_document.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "boxwood/error.hpp"
+
+namespace boxwood {
+
+namespace {
+
+constexpr std::size_t glb_header_size = 12;
+constexpr std::size_t chunk_header_size = 8;
+constexpr std::uint32_t json_chunk = 0x4e4f534a;   // "JSON"
+constexpr std::uint32_t binary_chunk = 0x004e4942; // "BIN\0"
+
+struct Container {
+    std::string_view json;
+    std::span<const std::byte> binary;
+};
+
+struct Chunk {
+    std::uint32_t type;
+    std::span<const std::byte> data;
+};
+
+std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 4; i-- > 0;) value = value << 8 | std::to_integer<std::uint32_t>(bytes[offset + i]);
+    return value;
+}
+
+bool is_glb(std::span<const std::byte> bytes) { return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0; }
+
+// Takes the first chunk off `rest`.
+Chunk take_chunk(std::span<const std::byte>& rest, const std::string& file, const char* where) {
+    if (rest.size() < chunk_header_size) throw InputError(file, where, "is truncated");
+    const std::size_t size = read_u32(rest, 0);
+    if (size > rest.size() - chunk_header_size) throw InputError(file, where, "is truncated");
+    const Chunk chunk{read_u32(rest, 4), rest.subspan(chunk_header_size, size)};
+    rest = rest.subspan(chunk_header_size + size);
+    return chunk;
+}
+
+Container open_glb(std::span<const std::byte> bytes, const std::string& file) {
+    if (bytes.size() < glb_header_size) throw InputError(file, "GLB header", "is truncated");
+    if (read_u32(bytes, 4) != 2) throw InputError(file, "GLB header", "is not of version 2");
+    const std::size_t length = read_u32(bytes, 8);
+    if (length > bytes.size()) throw InputError(file, "GLB header", "says the file is longer than it is (truncated?)");
+    if (length < glb_header_size) throw InputError(file, "GLB header", "says the file is shorter than its header");
+
+    std::span<const std::byte> rest = bytes.subspan(glb_header_size, length - glb_header_size);
+    const Chunk first = take_chunk(rest, file, "GLB chunk 0");
+    if (first.type != json_chunk) throw InputError(file, "GLB chunk 0", "is not JSON");
+    Container container{{reinterpret_cast<const char*>(first.data.data()), first.data.size()}, {}};
+    if (!rest.empty()) {
+        const Chunk second = take_chunk(rest, file, "GLB chunk 1");
+        if (second.type == binary_chunk) container.binary = second.data; // readers ignore chunks they do not know
+    }
+    return container;
+}
+
+// tinygltf turns checked JSON into typed structures. It gets neither buffers nor images, so it opens no file.
+tinygltf::Model make_model(nlohmann::json root, const std::string& file) {
+    root.erase("buffers");
+    const std::string text = root.dump();
+    root.clear();
+    if (text.size() > std::numeric_limits<unsigned>::max()) throw InputError(file, "JSON", "is longer than 4 GiB");
+    tinygltf::Model model;
+    std::string error;
+    std::string warning;
+    tinygltf::TinyGLTF loader;
+    const auto length = static_cast<unsigned>(text.size());
+    if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), length, "", tinygltf::NO_REQUIRE)) {
+        while (!error.empty() && error.back() == '\n') error.pop_back();
+        throw InputError(file, "", error.empty() ? "is not readable as glTF" : error);
+    }
+    return model;
+}
+
+} // namespace
+
+std::string element(std::string_view array, std::size_t index) {
+    return std::string(array) + "[" + std::to_string(index) + "]";
+}
+
+void GltfDocument::fail(const std::string& where, const std::string& what) const {
+    throw InputError(file, where, what);
+}
+
+std::vector<std::byte> read_regular_file(const std::filesystem::path& path, const std::string& name,
+                                         const std::string& where) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(name, where, "does not exist");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(name, where, "is not a regular file");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream) throw InputError(name, where, "cannot be opened");
+    std::vector<std::byte> bytes(size);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (stream.gcount() != static_cast<std::streamsize>(size))
+        throw InputError(name, where, "cannot be read to its end");
+    return bytes;
+}
+
+GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const std::filesystem::path& folder) {
+    if (bytes.empty()) throw InputError(file, "", "is empty");
+    Container container{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}};
+    if (is_glb(bytes)) container = open_glb(bytes, file);
+
+    GltfDocument document;
+    document.file = std::move(file);
+    nlohmann::json root = parse_gltf_json(container.json, document.file);
+    check_required_extensions(root, document.file);
+    load_buffers(document, root, container.binary, folder);
+    document.model = make_model(std::move(root), document.file);
+    return document;
+}
+
+} // namespace boxwood

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// tinygltf ignores fields of a wrong type and follows some indices unchecked, so its input is checked first.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "boxwood/error.hpp"
+#include "io/gltf_document.hpp"
+
+namespace boxwood {
+
+namespace {
+
+using nlohmann::json;
+
+// Deeper than any glTF property; later passes over the JSON are recursive.
+constexpr int deepest_nesting = 64;
+
+constexpr std::array sections{"asset",  "accessors", "bufferViews", "buffers", "cameras",
+                              "meshes", "nodes",     "scene",       "scenes",  "extensionsRequired"};
+constexpr std::array neutral_prefixes{"KHR_materials_",   "KHR_texture_",   "KHR_lights_", "KHR_xmp",
+                                      "EXT_materials_",   "EXT_texture_",   "EXT_lights_", "MSFT_texture_",
+                                      "ADOBE_materials_", "KHR_animation_", "KHR_audio",   "GOOGLE_texture_"};
+constexpr std::array supported{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+
+template <class List>
+bool contains(const List& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+// Decides, key by key while parsing, what is kept: images and the like never take memory.
+class Filter {
+public:
+    explicit Filter(const std::string& file) : file_(file) {}
+
+    bool operator()(int depth, json::parse_event_t event, const json& value) {
+        using Event = json::parse_event_t;
+        if (event == Event::object_start || event == Event::array_start) {
+            if (depth > deepest_nesting) throw InputError(file_, "JSON", "is nested too deeply");
+        } else if (event == Event::key) {
+            return keep(depth, value.get_ref<const std::string&>());
+        }
+        return true;
+    }
+
+private:
+    // Depths of keys: 1 in the root, 3 in an element of a root array, 4 in an object of that element.
+    bool keep(int depth, const std::string& key) {
+        if (depth == 1) {
+            section_ = key;
+            in_extensions_ = false;
+            return contains(sections, key);
+        }
+        if (depth == 3) in_extensions_ = key == "extensions";
+        if (key == "extensions") return section_ == "nodes" && depth == 3;
+        if (depth == 4 && in_extensions_) return key == "EXT_mesh_gpu_instancing";
+        return key != "extras" && !(section_ == "accessors" && (key == "min" || key == "max"));
+    }
+
+    const std::string& file_;
+    std::string section_;
+    bool in_extensions_ = false;
+};
+
+// One JSON object and the way its fields are checked. `Path` makes the element's name, and only when it is needed.
+template <class Path>
+class Fields {
+public:
+    Fields(const json& object, const std::string& file, Path path) : object_(object), file_(file), path_(path) {
+        if (!object.is_object()) throw InputError(file, path_(), "is not a JSON object");
+    }
+
+    std::string path() const { return path_(); }
+
+    [[noreturn]] void fail(const char* key, const char* what) const {
+        throw InputError(file_, path_() + "." + key, what);
+    }
+
+    const json* find(const char* key, bool required = false) const {
+        const auto found = object_.find(key);
+        if (found != object_.end()) return &*found;
+        if (required) fail(key, "is missing");
+        return nullptr;
+    }
+
+    void integer(const char* key, std::uint64_t largest, bool required = false) const {
+        const json* value = find(key, required);
+        if (value == nullptr) return;
+        if (!value->is_number_unsigned() || value->get<std::uint64_t>() > largest) {
+            fail(key, "is not an integer from 0 to the largest that is possible here");
+        }
+    }
+    void index(const char* key, bool required = false) const {
+        integer(key, std::numeric_limits<std::int32_t>::max(), required);
+    }
+    void size(const char* key, bool required = false) const { integer(key, std::uint64_t{1} << 53, required); }
+
+    void indices(const char* key) const {
+        const json* list = find(key);
+        if (list == nullptr) return;
+        if (!list->is_array()) fail(key, "is not an array");
+        for (const json& value : *list) check_index(value, key);
+    }
+
+    /// An object whose members are all indices.
+    void index_map(const char* key, bool required = false) const {
+        const json* map = find(key, required);
+        if (map != nullptr) check_index_map(*map, key);
+    }
+
+    void check_index_map(const json& map, const char* key) const {
+        if (!map.is_object()) fail(key, "is not a JSON object");
+        for (const json& value : map) check_index(value, key);
+    }
+
+    void string(const char* key, bool required = false) const {
+        const json* value = find(key, required);
+        if (value != nullptr && !value->is_string()) fail(key, "is not a string");
+    }
+
+    void boolean(const char* key) const {
+        const json* value = find(key);
+        if (value != nullptr && !value->is_boolean()) fail(key, "is not true or false");
+    }
+
+    void number(const char* key, bool required = false) const {
+        const json* value = find(key, required);
+        if (value != nullptr && !value->is_number()) fail(key, "is not a number");
+    }
+
+    void numbers(const char* key, std::size_t count) const {
+        const json* list = find(key);
+        if (list == nullptr) return;
+        const bool right = list->is_array() && list->size() == count &&
+                           std::all_of(list->begin(), list->end(), [](const json& value) { return value.is_number(); });
+        if (!right) fail(key, "does not have the right number of numbers");
+    }
+
+    /// Fields of the object under `key`, or of an empty object when there is none.
+    auto object(const char* key, bool required = false) const {
+        static const json empty = json::object();
+        const json* value = find(key, required);
+        const auto path = [this, key] { return path_() + "." + key; };
+        return Fields<decltype(path)>(value != nullptr ? *value : empty, file_, path);
+    }
+
+private:
+    void check_index(const json& value, const char* key) const {
+        const bool right =
+            value.is_number_unsigned() &&
+            value.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+        if (!right) fail(key, "holds something that is not an index");
+    }
+
+    const json& object_;
+    const std::string& file_;
+    Path path_;
+};
+
+// Calls check(fields) for every element of the array under `key` of `parent`.
+template <class Path, class Check>
+void for_each(const json& parent, const char* key, const std::string& file, Path path, Check check) {
+    const auto found = parent.find(key);
+    if (found == parent.end()) return;
+    if (!found->is_array()) throw InputError(file, path() + key, "is not an array");
+    for (std::size_t i = 0; i < found->size(); ++i) {
+        check((*found)[i], Fields((*found)[i], file, [&path, key, i] { return element(path() + key, i); }));
+    }
+}
+
+template <class F>
+void check_accessor(const F& accessor) {
+    accessor.index("bufferView");
+    accessor.size("byteOffset");
+    accessor.index("componentType", true);
+    accessor.size("count", true);
+    accessor.string("type", true);
+    accessor.string("name");
+    accessor.boolean("normalized");
+    if (accessor.find("sparse") == nullptr) return;
+    const auto sparse = accessor.object("sparse");
+    sparse.index("count", true);
+    const auto indices = sparse.object("indices", true);
+    indices.index("bufferView", true);
+    indices.index("byteOffset");
+    indices.index("componentType", true);
+    const auto values = sparse.object("values", true);
+    values.index("bufferView", true);
+    values.index("byteOffset");
+}
+
+template <class F>
+void check_buffer_view(const F& view) {
+    view.index("buffer", true);
+    view.size("byteOffset");
+    view.size("byteLength", true);
+    view.size("byteStride");
+    const json* stride = view.find("byteStride");
+    if (stride != nullptr && (*stride < 4 || *stride > 252 || stride->get<std::uint64_t>() % 4 != 0)) {
+        view.fail("byteStride", "is not a multiple of 4 from 4 to 252");
+    }
+}
+
+template <class F>
+void check_primitive(const json& value, const F& primitive) {
+    primitive.index_map("attributes", true);
+    primitive.index("indices");
+    primitive.index("mode");
+    const auto targets = value.find("targets");
+    if (targets == value.end()) return;
+    if (!targets->is_array()) primitive.fail("targets", "is not an array");
+    for (const json& target : *targets) primitive.check_index_map(target, "targets");
+}
+
+template <class F>
+void check_node(const F& node) {
+    node.index("mesh");
+    node.index("camera");
+    node.index("skin");
+    node.indices("children");
+    node.numbers("matrix", 16);
+    node.numbers("translation", 3);
+    node.numbers("rotation", 4);
+    node.numbers("scale", 3);
+    node.string("name");
+    if (node.find("extensions") == nullptr) return;
+    const auto extensions = node.object("extensions");
+    if (extensions.find("EXT_mesh_gpu_instancing") == nullptr) return;
+    extensions.object("EXT_mesh_gpu_instancing").index_map("attributes", true);
+}
+
+template <class F>
+void check_camera(const F& camera) {
+    camera.string("type", true);
+    camera.string("name");
+    for (const char* key : {"perspective", "orthographic"}) {
+        if (camera.find(key) == nullptr) continue;
+        const auto fields = camera.object(key);
+        for (const char* number : {"yfov", "znear", "zfar", "aspectRatio", "xmag", "ymag"}) fields.number(number);
+    }
+}
+
+void check_asset(const json& root, const std::string& file) {
+    const auto top = [] { return std::string("root"); };
+    const Fields fields(root, file, top);
+    const auto asset = fields.object("asset", true);
+    asset.string("version", true);
+    asset.string("minVersion");
+    const auto version = root["asset"]["version"].get<std::string>();
+    if (!version.starts_with("2.")) throw InputError(file, "asset.version", "is " + version + "; only 2.x can be read");
+    const json* minimum = asset.find("minVersion");
+    if (minimum != nullptr && *minimum != "2.0") {
+        throw InputError(file, "asset.minVersion",
+                         "asks for a reader of " + minimum->get<std::string>() + "; this one is of 2.0");
+    }
+}
+
+void check_fields(const json& root, const std::string& file) {
+    const auto top = [] { return std::string(); };
+    check_asset(root, file);
+    Fields(root, file, [] { return std::string("root"); }).index("scene");
+    for_each(root, "accessors", file, top, [](const json&, const auto& f) { check_accessor(f); });
+    for_each(root, "bufferViews", file, top, [](const json&, const auto& f) { check_buffer_view(f); });
+    for_each(root, "buffers", file, top, [](const json&, const auto& f) {
+        f.size("byteLength", true);
+        f.string("uri");
+    });
+    for_each(root, "meshes", file, top, [&](const json& mesh, const auto& f) {
+        f.string("name");
+        for_each(
+            mesh, "primitives", file, [&f] { return f.path() + "."; },
+            [](const json& value, const auto& primitive) { check_primitive(value, primitive); });
+    });
+    for_each(root, "nodes", file, top, [](const json&, const auto& f) { check_node(f); });
+    for_each(root, "cameras", file, top, [](const json&, const auto& f) { check_camera(f); });
+    for_each(root, "scenes", file, top, [](const json&, const auto& f) {
+        f.string("name");
+        f.indices("nodes");
+    });
+}
+
+} // namespace
+
+json parse_gltf_json(std::string_view text, const std::string& file) {
+    json root;
+    try {
+        root = json::parse(text.begin(), text.end(), Filter(file));
+    } catch (const json::exception& error) {
+        throw InputError(file, "JSON", std::string("cannot be parsed (is this a glTF file?): ") + error.what());
+    }
+    if (!root.is_object()) throw InputError(file, "JSON", "is not an object (is this a glTF file?)");
+    check_fields(root, file);
+    return root;
+}
+
+void check_required_extensions(const json& root, const std::string& file) {
+    const auto required = root.find("extensionsRequired");
+    if (required == root.end()) return;
+    if (!required->is_array()) throw InputError(file, "extensionsRequired", "is not an array");
+    for (std::size_t i = 0; i < required->size(); ++i) {
+        const json& name = (*required)[i];
+        if (!name.is_string()) throw InputError(file, element("extensionsRequired", i), "is not a string");
+        const auto& word = name.get_ref<const std::string&>();
+        const bool neutral = std::any_of(neutral_prefixes.begin(), neutral_prefixes.end(),
+                                         [&word](const char* prefix) { return word.starts_with(prefix); });
+        if (!neutral && !contains(supported, word)) {
+            throw InputError(file, element("extensionsRequired", i),
+                             "asks for " + word + ", which is not supported; export the scene without it");
+        }
+    }
+}
+
+} // namespace boxwood

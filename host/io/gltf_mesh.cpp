@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "io/gltf_accessor.hpp"
+
+namespace boxwood {
+
+namespace {
+
+constexpr std::size_t most_warnings = 100;
+
+/// The vertices that one primitive may name: `count` of them from `first` on.
+struct VertexRange {
+    std::size_t first;
+    std::size_t count;
+};
+
+class MeshLoader {
+public:
+    MeshLoader(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings)
+        : document_(document), source_(document.model.meshes[index]), where_(element("meshes", index)), counts_(counts),
+          warnings_(warnings) {
+        mesh_.name = source_.name;
+    }
+
+    Mesh load() {
+        for (std::size_t i = 0; i < source_.primitives.size(); ++i) {
+            add_primitive(source_.primitives[i], element(where_ + ".primitives", i));
+        }
+        drop_unusable();
+        return std::move(mesh_);
+    }
+
+private:
+    void add_primitive(const tinygltf::Primitive& primitive, const std::string& where) {
+        if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+            document_.fail(where + ".mode", "is not a mode of glTF");
+        }
+        if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+            ++counts_.skipped_points_and_lines;
+            return warnings_.add(where, "points or lines, skipped");
+        }
+        const auto positions = primitive.attributes.find("POSITION");
+        if (positions == primitive.attributes.end()) return warnings_.add(where, "has no positions, skipped");
+        if (!primitive.targets.empty()) warnings_.add(where, "morph targets are left out, base positions are used");
+
+        const VertexRange range = add_vertices(positions->second, where + ".attributes.POSITION");
+        add_triangles(primitive.mode, vertex_order(primitive, range, where + ".indices"), where);
+    }
+
+    VertexRange add_vertices(int accessor, const std::string& where) {
+        if (const auto known = ranges_.find(accessor); known != ranges_.end()) return known->second;
+        const std::vector<glm::vec3> positions = read_vec3(document_, accessor, where);
+        const VertexRange range{mesh_.positions.size(), positions.size()};
+        if (range.first + range.count > std::numeric_limits<std::uint32_t>::max()) {
+            document_.fail(where, "makes more than 2^32 vertices in one mesh");
+        }
+        mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
+        ranges_.emplace(accessor, range);
+        note_unusable(range, where);
+        return range;
+    }
+
+    // Remembers the first unusable vertex of a primitive's positions for the messages of drop_unusable.
+    void note_unusable(VertexRange range, const std::string& where) {
+        for (std::size_t i = 0; i < range.count && first_unusable_.empty(); ++i) {
+            if (!usable(mesh_.positions[range.first + i])) first_unusable_ = element(where, i);
+        }
+    }
+
+    // Vertices in the order in which the primitive uses them, as indices into the mesh.
+    std::vector<std::uint32_t> vertex_order(const tinygltf::Primitive& primitive, VertexRange range,
+                                            const std::string& where) {
+        std::vector<std::uint32_t> order;
+        if (primitive.indices < 0) {
+            order.resize(range.count);
+            for (std::size_t i = 0; i < range.count; ++i) order[i] = static_cast<std::uint32_t>(range.first + i);
+            return order;
+        }
+        order = read_indices(document_, primitive.indices, where);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (order[i] >= range.count) {
+                document_.fail(element(where, i), "is " + std::to_string(order[i]) + " where there are " +
+                                                      std::to_string(range.count) + " vertices");
+            }
+            order[i] += static_cast<std::uint32_t>(range.first);
+        }
+        return order;
+    }
+
+    // The three vertices of every triangle as glTF 2.0 section 3.7.2.1 orders them, so that all face the same way.
+    void add_triangles(int mode, const std::vector<std::uint32_t>& v, const std::string& where) {
+        if (mode == TINYGLTF_MODE_TRIANGLES) {
+            if (v.size() % 3 != 0) warnings_.add(where, "the vertices after the last whole triangle are left out");
+            for (std::size_t i = 0; i + 2 < v.size(); i += 3) mesh_.triangles.emplace_back(v[i], v[i + 1], v[i + 2]);
+            return;
+        }
+        for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+            if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+                mesh_.triangles.emplace_back(v[i + 1], v[i + 2], v[0]);
+            } else {
+                const std::size_t odd = i % 2;
+                mesh_.triangles.emplace_back(v[i], v[i + 1 + odd], v[i + 2 - odd]);
+            }
+        }
+    }
+
+    static bool usable(const glm::vec3& position) {
+        const glm::vec3 size = glm::abs(position); // a NaN fails every comparison
+        return size.x <= largest_coordinate && size.y <= largest_coordinate && size.z <= largest_coordinate;
+    }
+
+    // Takes out unusable vertices and the triangles that use them; the others keep their order.
+    void drop_unusable() {
+        if (first_unusable_.empty()) return;
+        constexpr std::uint32_t gone = std::numeric_limits<std::uint32_t>::max();
+        std::vector<std::uint32_t> renumbered(mesh_.positions.size(), gone);
+        std::uint32_t kept = 0;
+        for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+            if (!usable(mesh_.positions[i])) continue;
+            mesh_.positions[kept] = mesh_.positions[i];
+            renumbered[i] = kept++;
+        }
+        mesh_.positions.resize(kept);
+        const std::size_t before = mesh_.triangles.size();
+        for (glm::uvec3& t : mesh_.triangles) t = {renumbered[t.x], renumbered[t.y], renumbered[t.z]};
+        std::erase_if(mesh_.triangles, [](const glm::uvec3& t) { return t.x == gone || t.y == gone || t.z == gone; });
+        const std::size_t dropped = before - mesh_.triangles.size();
+        if (before > 0 && mesh_.triangles.empty()) {
+            document_.fail(first_unusable_,
+                           "is not finite or out of range, like a vertex of every triangle of the mesh");
+        }
+        counts_.dropped_triangles += dropped;
+        if (dropped == 0) return;
+        warnings_.add(first_unusable_, "is not finite or out of range; triangles dropped: " + std::to_string(dropped));
+    }
+
+    const GltfDocument& document_;
+    const tinygltf::Mesh& source_;
+    std::string where_;
+    ImportCounts& counts_;
+    Warnings& warnings_;
+    Mesh mesh_;
+    std::map<int, VertexRange> ranges_; ///< By position accessor.
+    std::string first_unusable_;
+};
+
+} // namespace
+
+void Warnings::add(const std::string& where, const std::string& what) {
+    if (lines_.size() < most_warnings) {
+        lines_.push_back(where + ": " + what);
+    } else {
+        ++more_;
+    }
+}
+
+std::vector<std::string> Warnings::take() {
+    if (more_ > 0) lines_.push_back("and " + std::to_string(more_) + " more warnings");
+    return std::move(lines_);
+}
+
+Mesh load_mesh(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings) {
+    return MeshLoader(document, index, counts, warnings).load();
+}
+
+} // namespace boxwood

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/gltf_document.hpp"
+
+namespace boxwood {
+
+/// The warnings of an import: the first hundred, then only how many more there were.
+class Warnings {
+public:
+    void add(const std::string& where, const std::string& what);
+    std::vector<std::string> take();
+
+private:
+    std::vector<std::string> lines_;
+    std::size_t more_ = 0;
+};
+
+/// The triangle primitives of meshes[index], concatenated; primitives that share a position accessor share its
+/// vertices. Triangles that use a vertex that is not finite or out of range are dropped and counted, with a warning;
+/// points and lines are skipped and counted. The mesh has no triangle when the file has none for it. Throws InputError
+/// when a reference or an index is out of range, or when every triangle had to be dropped.
+Mesh load_mesh(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings);
+
+} // namespace boxwood

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The makers behind make_procedural. Each takes options whose zeros are still unresolved. They use only operations that
+// IEEE 754 rounds exactly (no sin, cos or pow), so the bytes are the same everywhere.
+#pragma once
+
+#include "boxwood/procedural.hpp"
+#include "boxwood/scene.hpp"
+
+namespace boxwood {
+
+/// A box open to the viewer with two blocks and a light. 32 k^2 triangles in 8 meshes.
+Scene make_cornell(const ProceduralOptions& options);
+/// Unconnected triangles of like size in the unit cube; any count.
+Scene make_random(const ProceduralOptions& options);
+/// A heightfield of fractal value noise over [-1, 1]^2; 2 w h triangles.
+Scene make_terrain(const ProceduralOptions& options);
+/// The unit sphere as a refined octahedron; 8 f^2 triangles, closed, every vertex shared.
+Scene make_sphere(const ProceduralOptions& options);
+/// Trees of three kinds placed on a plane; 18 n + 2 stored triangles with n a multiple of 4.
+Scene make_forest(const ProceduralOptions& options);
+/// The outside faces of a Menger sponge in [-1, 1]^3; 4 * 20^level + 8 * 8^level triangles.
+Scene make_menger(const ProceduralOptions& options);
+
+/// The largest integer whose square is not above `value`.
+std::uint64_t floor_sqrt(std::uint64_t value);
+
+/// One mesh, one identity instance and one camera that looks from `eye` at `target`.
+Scene single_mesh_scene(Mesh mesh, glm::dvec3 eye, glm::dvec3 target);
+
+} // namespace boxwood

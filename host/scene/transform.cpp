@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace boxwood {
+
+namespace {
+
+template <class Matrix>
+bool all_finite(const Matrix& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(static_cast<float>(matrix[column][row]))) return false;
+        }
+    }
+    return true;
+}
+
+// Hadamard's bound on the determinant, by columns and by rows: a matrix whose rows or columns differ in scale only is
+// far from singular, however thin it is.
+bool is_singular(const glm::dmat3& linear) {
+    const glm::dmat3 rows = glm::transpose(linear);
+    const double by_columns = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    const double by_rows = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
+    const double rounding = static_cast<double>(FLT_EPSILON);
+    return !(std::abs(glm::determinant(linear)) > rounding * std::min(by_columns, by_rows));
+}
+
+} // namespace
+
+MeshBounds mesh_bounds(const Mesh& mesh) {
+    MeshBounds bounds{mesh.positions.front(), mesh.positions.front()};
+    for (const glm::vec3& position : mesh.positions) {
+        bounds.min = glm::min(bounds.min, position);
+        bounds.max = glm::max(bounds.max, position);
+    }
+    return bounds;
+}
+
+std::string_view transform_fault(const glm::mat4& transform) {
+    if (!all_finite(transform)) return "is not finite";
+    if (transform[0][3] != 0.0f || transform[1][3] != 0.0f || transform[2][3] != 0.0f || transform[3][3] != 1.0f) {
+        return "is not affine";
+    }
+    const glm::dmat4 exact(transform);
+    if (is_singular(glm::dmat3(exact))) return "is singular";
+    if (!all_finite(glm::affineInverse(exact))) return "has an inverse out of the range of float";
+    return "";
+}
+
+bool stays_in_range(const glm::mat4& transform, const MeshBounds& bounds) {
+    const glm::dmat4 exact(transform);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 position((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                  (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                  (corner & 4) != 0 ? bounds.max.z : bounds.min.z, 1.0);
+        const glm::dvec3 placed(exact * position);
+        const double largest = std::max({std::abs(placed.x), std::abs(placed.y), std::abs(placed.z)});
+        if (!(largest <= static_cast<double>(largest_coordinate))) return false;
+    }
+    return true;
+}
+
+glm::mat4 look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
+    const glm::dvec3 back = glm::normalize(eye - target);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+    const glm::dvec3 above = glm::cross(back, right);
+    return glm::mat4(
+        glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(above, 0.0), glm::dvec4(back, 0.0), glm::dvec4(eye, 1.0)));
+}
+
+} // namespace boxwood

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include <glm/glm.hpp>
+
+#include "boxwood/scene.hpp"
+
+namespace boxwood {
+
+/// Axis-aligned bounds of a mesh in object space. `mesh` must have at least one position. O(positions).
+struct MeshBounds {
+    glm::vec3 min;
+    glm::vec3 max;
+};
+MeshBounds mesh_bounds(const Mesh& mesh);
+
+/// Why a transform cannot place something, or "" when it can: it must be affine and finite, and have an inverse whose
+/// entries are finite floats too. The determinant counts as zero when it is below the rounding error of its own terms,
+/// so the answer does not change when the transform is scaled by a power of two.
+std::string_view transform_fault(const glm::mat4& transform);
+
+/// True when `transform` keeps every corner of `bounds` within largest_coordinate.
+bool stays_in_range(const glm::mat4& transform, const MeshBounds& bounds);
+
+/// The frame that looks from `eye` to `target` along its local -z with `up` as close to y as it can be.
+glm::mat4 look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0.0, 1.0, 0.0});
+
+} // namespace boxwood
