@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every mask of eight and of four lanes through both twins.
+//
+// compile: PORTABLE_LANES=0
+// compile: PORTABLE_LANES=1
 #include "runtime/lanes.h"
 
 /// out[4 * m + k] for the mask m in [0, 256): lanes8, lanes8_portable, lanes4, lanes4_portable (of the low bits).

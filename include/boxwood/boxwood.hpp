@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Everything public.
+#pragma once
+
+#include "boxwood/buffer.hpp"
+#include "boxwood/build.hpp"
+#include "boxwood/bxw.hpp"
+#include "boxwood/compact.hpp"
+#include "boxwood/device.hpp"
+#include "boxwood/error.hpp"
+#include "boxwood/gather.hpp"
+#include "boxwood/geometry.hpp"
+#include "boxwood/gltf.hpp"
+#include "boxwood/image.hpp"
+#include "boxwood/operator.hpp"
+#include "boxwood/primitives.hpp"
+#include "boxwood/procedural.hpp"
+#include "boxwood/profile.hpp"
+#include "boxwood/radix_sort.hpp"
+#include "boxwood/rays.hpp"
+#include "boxwood/reduce.hpp"
+#include "boxwood/scan.hpp"
+#include "boxwood/scatter.hpp"
+#include "boxwood/scene.hpp"
+#include "boxwood/segmented_reduce.hpp"
+#include "boxwood/trace.hpp"
+#include "boxwood/tree.hpp"
+#include "boxwood/tree_image.hpp"

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Compiles every kernel file with warnings as errors, as OpenCL C 3.0 for this processor and as 1.2 for a plain
+# SPIR device (so that both sides of each dialect and vendor switch are seen). A kernel file lists the macro sets to
+# compile it with, one line each:
+#     // compile: TYPE=float OPERATOR=0
+# GROUP_SIZE is always given, as the runtime does. A file without such a line fails.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+native=()
+[[ $(uname -m) != x86_64 ]] || native=(-mavx2)
+
+failed=0
+compiled=0
+
+# compile FILE [COMPILER FLAG...] with the macro set in $macros
+compile() {
+    local file=$1
+    shift
+    if ! clang -x cl -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror "$@" \
+        -DGROUP_SIZE=1 "${macros[@]/#/-D}" -I cl -I tests "$file"; then
+        echo "check_kernels: $file fails with $* ${macros[*]}" >&2
+        failed=1
+    fi
+    compiled=$((compiled + 1))
+}
+
+while IFS= read -r file; do
+    mapfile -t sets < <(sed -n 's,^// compile: *,,p' "$file")
+    if [[ ${#sets[@]} -eq 0 ]]; then
+        echo "check_kernels: $file has no line '// compile: MACRO=VALUE ...'" >&2
+        failed=1
+    fi
+    for set in "${sets[@]}"; do
+        read -ra macros <<<"$set"
+        compile "$file" -cl-std=CL3.0 "${native[@]}"
+        compile "$file" -cl-std=CL1.2 -target spir64
+    done
+done < <(find cl tests -name '*.cl' | sort)
+
+echo "check_kernels: $compiled compilations"
+[[ $failed == 0 && $compiled -gt 0 ]]

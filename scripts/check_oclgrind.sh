@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs the kernel tests on small sizes under Oclgrind. Fails when a test fails, on any memory error, and on a data race
+# outside the kernels whose file includes the documented hand-off (cl/runtime/handoff.h).
+# usage: scripts/check_oclgrind.sh [BUILD_FOLDER [SUITE,...]]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+build=${1:-build/release}
+suites=${2:-runtime,primitives,bounds,hierarchy,traverse,render}
+log=$build/oclgrind.log
+
+: >"$log"
+BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --log "$log" \
+    "$build/boxwood-tests" --no-intro --test-suite="$suites"
+
+handoff=$({ grep -rl --include='*.cl' 'runtime/handoff.h' cl tests || true; } |
+    xargs -r sed -nE 's/.*kernel .*void +([a-z0-9_]+) *\(.*/\1/p' | tr '\n' ' ')
+
+# An entry of the log starts at the margin; the lines that explain it, "Kernel: NAME" first, are indented.
+awk -v handoff="$handoff" '
+    function judge() {
+        if (entry == "") return
+        if (entry ~ /data race/ && kernel in allowed) races++
+        else { printf "%s", text; bad++ }
+        entry = ""
+    }
+    BEGIN { split(handoff, names, " "); for (i in names) allowed[names[i]] }
+    /^[^ \t]/ { judge(); entry = $0; text = ""; kernel = "" }
+    { text = text $0 "\n" }
+    $1 == "Kernel:" { kernel = $2 }
+    END {
+        judge()
+        printf "check_oclgrind: %d races in the documented hand-off, %d other findings\n", races, bad
+        exit bad > 0
+    }' "$log"
