@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# What .ci/run checks beyond the tests, as CTest entries of the configuration `checks` (`ctest -C checks`), so that a
+# plain `ctest` needs neither the tools nor the time.
+function(boxwood_check name)
+  cmake_parse_arguments(PARSE_ARGV 1 check "" "TIMEOUT;PROCESSORS" "COMMAND")
+  add_test(NAME ${name} CONFIGURATIONS checks COMMAND ${check_COMMAND} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${name} PROPERTIES LABELS check TIMEOUT ${check_TIMEOUT} PROCESSORS ${check_PROCESSORS}
+    ENVIRONMENT "POCL_CACHE_DIR=${PROJECT_BINARY_DIR}/pocl-cache")
+endfunction()
+
+set(scripts ${PROJECT_SOURCE_DIR}/scripts)
+boxwood_check(format COMMAND ${scripts}/check_format.sh TIMEOUT 120 PROCESSORS 1)
+boxwood_check(kernels COMMAND ${scripts}/check_kernels.sh TIMEOUT 300 PROCESSORS 1)
+boxwood_check(oclgrind COMMAND ${scripts}/check_oclgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 900 PROCESSORS 1)
+boxwood_check(sanitizers COMMAND ${scripts}/check_sanitizers.sh TIMEOUT 1200 PROCESSORS 2)

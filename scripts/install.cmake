@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` lays out: the library with its headers and package files, the tool and boxwood-tests.
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/boxwood)
+
+install(TARGETS boxwood-lib EXPORT boxwoodTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT boxwoodTargets NAMESPACE boxwood:: DESTINATION ${package_folder})
+install(DIRECTORY include/boxwood DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY cl/shared DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/boxwood FILES_MATCHING PATTERN "*.h")
+
+configure_package_config_file(scripts/boxwoodConfig.cmake.in ${PROJECT_BINARY_DIR}/boxwoodConfig.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/boxwoodConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/boxwoodConfig.cmake ${PROJECT_BINARY_DIR}/boxwoodConfigVersion.cmake
+  DESTINATION ${package_folder})
+
+foreach(program boxwood boxwood-tests)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()
