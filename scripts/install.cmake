@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` lays out: the library with its headers and package files, the tool and boxwood-tests.
+# What `cmake --install` lays out: the library with its headers and package files, and the tool.
+# (boxwood-tests is installed where it is built.)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/boxwood)
 
@@ -14,8 +15,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/boxwoodConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/boxwoodConfig.cmake ${PROJECT_BINARY_DIR}/boxwoodConfigVersion.cmake
   DESTINATION ${package_folder})
 
-foreach(program boxwood boxwood-tests)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
-endforeach()
+if(TARGET boxwood)
+  install(TARGETS boxwood RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
