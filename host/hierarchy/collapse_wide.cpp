@@ -87,7 +87,7 @@ std::vector<Level> choose_levels(const Collapse& c, std::vector<cl_uint2>& sizes
         levels.push_back(choose_children(c, sources));
         const Level& level = levels.back();
         sizes.push_back(totals(c, level, place));
-        Buffer<std::uint32_t> next = make_scratch<std::uint32_t>(c.device, sizes.back().x, "sources of a level");
+        Buffer<std::uint32_t> next = make_scratch<std::uint32_t>(c.device, sizes.back().s[0], "sources of a level");
         if (next.size() > 0)
             launch(c.device, c.kernel("next_level"), "next level", level.size, level.kids, level.inner_starts, next,
                    level.size);
@@ -111,7 +111,7 @@ void write_levels(const Collapse& c, const std::vector<Level>& levels, const std
             launch(c.device, c.kernel("write_level"), "wide nodes", level.size, c.volumes, c.topology.far_ends,
                    c.topology.order, level.kids, level.inner_starts, layout.nodes, c.count, level.size, first_node);
         first_node += level.size;
-        first_leaf += sizes[i].y;
+        first_leaf += sizes[i].s[1];
     }
 }
 
@@ -126,7 +126,7 @@ WideLayout collapse(Device& device, const Topology& topology, BufferView<const A
     std::size_t nodes = 0, leaves = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         nodes += levels[i].size;
-        leaves += sizes[i].y;
+        leaves += sizes[i].s[1];
     }
     WideLayout layout;
     layout.nodes = make_buffer<Wide8Node>(device, nodes, "wide nodes");

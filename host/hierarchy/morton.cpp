@@ -8,7 +8,7 @@
 namespace boxwood {
 
 KeyFormat key_format(MortonBits morton, std::size_t trees) {
-    const int tree_bits = trees > 1 ? std::bit_width(trees - 1) : 0;
+    const int tree_bits = trees > 1 ? static_cast<int>(std::bit_width(trees - 1)) : 0;
     int axis_bits = static_cast<int>(morton) / 3;
     while (3 * axis_bits + tree_bits > 64) --axis_bits;
     return {3 * axis_bits, 3 * axis_bits + tree_bits};
