@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Reduction, one level: every block of BLOCK elements becomes one. The host repeats it until one element is left.
+//
+// GROUP_SIZE                                 work-items per group, 1 or more
+// SCALAR, COMPONENTS, OP_SUM/OP_MIN/OP_MAX   as in primitives/operator.h
+#ifndef GROUP_SIZE
+#error "define GROUP_SIZE"
+#endif
+#include "primitives/operator.h"
+
+/// @pre  `in` holds `count` elements and does not overlap `out`. Slices are `length` elements long, a multiple of
+///       BLOCK, and `slices` of them cover `count`; an empty array has one slice.
+/// @post out[b] is the fold of block b, the last block may be short, and an empty array gives the neutral element as
+///       its one block.
+/// Work-items share nothing, so there is no barrier and no local memory. Blocks, and so results, do not depend on how
+/// the blocks are dealt to work-items.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void reduce(global const SCALAR* in, global SCALAR* out,
+                                                                           uint count, uint length, uint slices) {
+    const uint slice = (uint)get_global_id(0);
+    if (slice >= slices) return;
+    uint first = slice * length;
+    const uint last = first + min(length, count - first);
+    do {
+        const uint end = first + min(BLOCK, last - first);
+        STORE_ELEMENT(fold(in, first, end), out, first / BLOCK);
+        first = end;
+    } while (first < last);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/compact.hpp"
+
+#include "boxwood/scan.hpp"
+#include "primitives/element.hpp"
+
+namespace boxwood {
+
+template <class T>
+void compact(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> flags, BufferView<T> out,
+             BufferView<std::uint32_t> count) {
+    primitives::require(flags.size() == in.size(), "flags", "needs as many entries as in has elements");
+    primitives::require(out.size() >= in.size(), "out", "has fewer elements than in");
+    primitives::require(count.size() >= 1, "count", "needs room for one element");
+    if (in.size() == 0) return fill(device, count.prefix(1), 0);
+
+    const KernelRef count_kernel{"primitives/compact.cl", "compact_count", primitives::bits_defines<T>()};
+    const KernelRef move_kernel{"primitives/compact.cl", "compact", primitives::bits_defines<T>()};
+    const Slices slices = cut(device, in.size());
+    const auto kept = make_scratch<std::uint32_t>(device, slices.slices, "kept elements by slice");
+    const auto before = make_scratch<std::uint32_t>(device, slices.slices, "kept elements before slices");
+    launch(device, count_kernel, "compact: count", slices.slices, flags, kept, static_cast<cl_uint>(in.size()),
+           slices.length, slices.slices);
+    exclusive_scan<std::uint32_t>(device, kept, Operator::sum, before);
+    launch(device, move_kernel, "compact: move", slices.slices, in, flags, before, kept, out, count, slices.length,
+           slices.slices);
+}
+
+template void compact(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>,
+                      BufferView<std::int32_t>, BufferView<std::uint32_t>);
+template void compact(Device&, BufferView<const std::uint32_t>, BufferView<const std::uint32_t>,
+                      BufferView<std::uint32_t>, BufferView<std::uint32_t>);
+template void compact(Device&, BufferView<const std::uint64_t>, BufferView<const std::uint32_t>,
+                      BufferView<std::uint64_t>, BufferView<std::uint32_t>);
+template void compact(Device&, BufferView<const float>, BufferView<const std::uint32_t>, BufferView<float>,
+                      BufferView<std::uint32_t>);
+template void compact(Device&, BufferView<const cl_float4>, BufferView<const std::uint32_t>, BufferView<cl_float4>,
+                      BufferView<std::uint32_t>);
+template void compact(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, BufferView<Aabb>,
+                      BufferView<std::uint32_t>);
+
+} // namespace boxwood

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/radix_sort.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "boxwood/scan.hpp"
+#include "primitives/element.hpp"
+
+namespace boxwood {
+
+namespace {
+
+/// Most bits sorted in one pass.
+constexpr int most_digit_bits = 8;
+
+template <class Key>
+struct Pairs {
+    BufferView<Key> keys;
+    BufferView<std::uint32_t> values;
+};
+
+/// Sorts `from` into `to` by the `bits` bits of the key above `shift`.
+template <class Key>
+void sort_pass(Device& device, const Pairs<Key>& from, const Pairs<Key>& to, int shift, int bits) {
+    const Defines defines{{"KEY", primitives::Element<Key>::scalar}, {"DIGIT_BITS", std::to_string(most_digit_bits)}};
+    const std::size_t digits = std::size_t{1} << bits;
+    const auto count = static_cast<cl_uint>(from.keys.size());
+    const auto first_bit = static_cast<cl_uint>(shift);
+    const auto mask = static_cast<cl_uint>(digits - 1);
+    // Slices of a few times as many pairs as there are digits: counting and scanning stay cheap beside moving.
+    const Slices slices = cut(device, count, 4 * digits);
+    const auto counts = make_scratch<std::uint32_t>(device, digits * slices.slices, "digit counts");
+    launch(device, {"primitives/radix_sort.cl", "radix_count", defines}, "radix sort: count", slices.slices, from.keys,
+           counts, count, first_bit, mask, slices.length, slices.slices);
+    exclusive_scan<std::uint32_t>(device, counts, Operator::sum, counts);
+    launch(device, {"primitives/radix_sort.cl", "radix_move", defines}, "radix sort: move", slices.slices, from.keys,
+           from.values, counts, to.keys, to.values, count, first_bit, mask, slices.length, slices.slices);
+}
+
+} // namespace
+
+template <class Key>
+void radix_sort(Device& device, BufferView<Key> keys, BufferView<std::uint32_t> values, int first_bit, int last_bit) {
+    primitives::require(values.size() == keys.size(), "values", "needs as many elements as keys");
+    primitives::require(first_bit >= 0 && first_bit <= last_bit && last_bit <= 8 * static_cast<int>(sizeof(Key)),
+                        "first_bit, last_bit", "must be an ascending range of the key's bits");
+    const std::size_t count = keys.size();
+    if (count < 2 || first_bit == last_bit) return;
+
+    const auto spare_keys = make_scratch<Key>(device, count, "sorted keys");
+    const auto spare_values = make_scratch<std::uint32_t>(device, count, "sorted values");
+    Pairs<Key> from{keys, values}, to{spare_keys, spare_values};
+    const int passes = (last_bit - first_bit + most_digit_bits - 1) / most_digit_bits;
+    for (int pass = 0, bit = first_bit; pass < passes; ++pass) {
+        const int bits = (last_bit - bit + passes - pass - 1) / (passes - pass);
+        sort_pass(device, from, to, bit, bits);
+        std::swap(from, to);
+        bit += bits;
+    }
+    if (passes % 2 != 0) {
+        copy<Key>(device, spare_keys, keys);
+        copy<std::uint32_t>(device, spare_values, values);
+    }
+}
+
+template void radix_sort(Device&, BufferView<std::uint32_t>, BufferView<std::uint32_t>, int, int);
+template void radix_sort(Device&, BufferView<std::uint64_t>, BufferView<std::uint32_t>, int, int);
+
+} // namespace boxwood

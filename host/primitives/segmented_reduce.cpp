@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/segmented_reduce.hpp"
+
+#include "primitives/element.hpp"
+
+namespace boxwood {
+
+namespace {
+
+const char* const file = "primitives/segmented_reduce.cl";
+
+template <class T>
+void segmented(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> offsets, const Defines& defines,
+               BufferView<T> out) {
+    const std::size_t segments = offsets.size() - 1;
+    const Slices over_segments = cut(device, segments);
+    launch(device, {file, "segmented_empty", defines}, "segmented reduce: empty", over_segments.slices, offsets, out,
+           static_cast<cl_uint>(segments), over_segments.length, over_segments.slices);
+    if (in.size() == 0) return;
+
+    const std::size_t blocks = primitives::blocks_of(in.size());
+    const auto head = make_scratch<T>(device, blocks, "heads of blocks");
+    const auto tail = make_scratch<T>(device, blocks, "tails of blocks");
+    const auto tail_segment = make_scratch<std::uint32_t>(device, blocks, "segments of tails");
+    const auto spans = make_scratch<std::uint32_t>(device, blocks + 1, "spans of heads");
+    const Slices over_elements = cut(device, in.size(), primitives::block);
+    launch(device, {file, "segmented_reduce", defines}, "segmented reduce", over_elements.slices, in, offsets, out,
+           head, tail, tail_segment, spans, static_cast<cl_uint>(in.size()), static_cast<cl_uint>(segments),
+           over_elements.length, over_elements.slices);
+    if (blocks == 1) return;
+
+    const auto reduced = make_scratch<T>(device, blocks, "reduced heads");
+    segmented<T>(device, head, spans, defines, reduced);
+    const Slices over_blocks = cut(device, blocks);
+    launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_blocks.slices, tail, reduced,
+           tail_segment, out, static_cast<cl_uint>(blocks), over_blocks.length, over_blocks.slices);
+}
+
+} // namespace
+
+template <class T>
+void segmented_reduce(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> offsets, Operator op,
+                      BufferView<T> out) {
+    primitives::require(offsets.size() == out.size() + 1, "offsets", "needs one entry more than out has segments");
+    const Defines defines = primitives::operator_defines<T>(op);
+    if (out.size() > 0) segmented<T>(device, in, offsets, defines, out);
+}
+
+template void segmented_reduce(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<std::int32_t>);
+template void segmented_reduce(Device&, BufferView<const std::uint32_t>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<std::uint32_t>);
+template void segmented_reduce(Device&, BufferView<const std::uint64_t>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<std::uint64_t>);
+template void segmented_reduce(Device&, BufferView<const float>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<float>);
+template void segmented_reduce(Device&, BufferView<const cl_float4>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<cl_float4>);
+template void segmented_reduce(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<Aabb>);
+
+} // namespace boxwood

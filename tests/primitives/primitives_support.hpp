@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What the tests of this layer share: other tunings for a while, sizes around boundaries, inputs by type.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "boxwood/device.hpp"
+#include "shared/aabb.h"
+#include "support.hpp"
+
+namespace boxwood::test {
+
+/// Replaces the tuning of the device under test until the end of the scope.
+class TuningScope {
+public:
+    explicit TuningScope(const Tuning& tuning) : previous_(test_device().tuning()) { test_device().set_tuning(tuning); }
+    ~TuningScope() { test_device().set_tuning(previous_); }
+    TuningScope(const TuningScope&) = delete;
+    TuningScope& operator=(const TuningScope&) = delete;
+
+private:
+    Tuning previous_;
+};
+
+/// The device's own tuning, groups that divide nothing, and groups like a GPU's with slices as short as they get.
+inline std::vector<Tuning> tunings() { return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}}; }
+
+/// Elements in a block of the folds (cl/primitives/operator.h).
+inline constexpr std::size_t block = 1024;
+
+/// Around the boundaries of: nothing, one row of 64 scalars, a group of 64, the shortest slice (256 elements), one
+/// block, several blocks, 32 slices of one block, two levels of blocks.
+inline std::vector<std::size_t> boundary_sizes() {
+    std::vector<std::size_t> sizes{0,
+                                   1,
+                                   2,
+                                   15,
+                                   16,
+                                   63,
+                                   64,
+                                   65,
+                                   255,
+                                   256,
+                                   257,
+                                   block - 1,
+                                   block,
+                                   1025,
+                                   2 * block,
+                                   5001,
+                                   32 * block - 1,
+                                   32 * block,
+                                   32 * block + 1};
+    if (!small_sizes()) sizes.insert(sizes.end(), {block * block - 1, block * block, block * block + 1, 1300003});
+    return sizes;
+}
+
+template <class T>
+struct Make {
+    static T value(Random& random) { return static_cast<T>(random.bits()); }
+};
+template <>
+struct Make<float> {
+    static float value(Random& random) { return random.uniform(-1.0f, 1.0f); }
+};
+template <>
+struct Make<cl_float4> {
+    static cl_float4 value(Random& random) {
+        cl_float4 v;
+        for (float& s : v.s) s = random.uniform(-1.0f, 1.0f);
+        return v;
+    }
+};
+template <>
+struct Make<Aabb> {
+    static Aabb value(Random& random) {
+        Aabb box;
+        for (int k = 0; k < 3; ++k) {
+            box.min[k] = random.uniform(-1.0f, 1.0f);
+            box.max[k] = box.min[k] + random.uniform(0.0f, 0.5f);
+        }
+        return box;
+    }
+};
+
+template <class T>
+std::vector<T> random_values(std::size_t count, std::uint64_t salt) {
+    Random random(salt);
+    std::vector<T> values(count);
+    for (T& value : values) value = Make<T>::value(random);
+    return values;
+}
+
+/// The same bits in both.
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+} // namespace boxwood::test
