@@ -12,7 +12,7 @@
 namespace boxwood {
 
 /// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf).
-/// `rays` has width * height elements.
+/// `rays` has width * height elements, both at most 2^23. Throws InputError when not.
 void primary_rays(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                   BufferView<Ray> rays);
 
@@ -28,7 +28,12 @@ void shadow_rays(Device& device, const Geometry& geometry, BufferView<const Ray>
                  const glm::vec3& light, BufferView<Ray> out);
 
 /// A perspective camera that sees all of the scene from outside, looking along (-1, -0.6, -1.2); for scenes without
-/// one. An empty scene gives the unit view.
+/// one. It fits pictures that are at least as wide as high. An empty scene gives the view of a unit ball at the origin.
+/// O(vertices + instances).
 Camera default_camera(const Scene& scene);
+
+/// A point for shadow rays: the middle of the scene's bounding box at 95 % of its height, which is under the ceiling of
+/// a room and over most of an object. The origin for an empty scene. O(vertices + instances).
+glm::vec3 default_light(const Scene& scene);
 
 } // namespace boxwood
