@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: MIT
-// What it costs to cover a subtree by wide nodes: the dynamic program of Ylitie, Karras and Laine ("Efficient
+// How to cover each subtree by wide nodes at least cost: the dynamic program of Ylitie, Karras and Laine ("Efficient
 // incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1), bottom-up.
 //
 // costs[8 n + i - 1], i = 1..7: least cost of the subtree of inner node n when it may hang from its wide parent as up to
-// i boxes; costs[8 n + 7]: least cost below n when n itself is a wide node, shared out over up to 8 boxes. All are
-// expected costs per ray that hits n's box, so they are free of scale and neither overflow nor vanish.
+// i boxes ([8 n + 7] repeats i = 7). All are expected costs per ray that hits n's box, so they are free of scale and
+// neither overflow nor vanish.
 //
 // LEAF_SIZE  most primitives in a leaf
 // NODE_COST  cost of testing one wide node (float)
 // LEAF_COST  cost of testing one leaf (float)
 // compile: LEAF_SIZE=4 NODE_COST=1.0f LEAF_COST=1.0f
 #include "runtime/numerics.h"
-#include "hierarchy/collapse_cost.h"
+#include "hierarchy/forest.h"
+#include "hierarchy/shares.h"
+#include "shared/aabb.h"
+
+#if !defined(LEAF_SIZE) || !defined(NODE_COST) || !defined(LEAF_COST)
+#error "define LEAF_SIZE, NODE_COST and LEAF_COST"
+#endif
 
 typedef struct Costs {
     global const Aabb* volumes;
     global const uint* far_ends;
     global float* costs;
+    global uint* shares;
 } Costs;
 
 #define CLIMB_DATA const Costs*
@@ -27,45 +34,85 @@ inline void visit_leaf(const Costs* c, uint position, uint count) {
     (void)count;
 }
 
-/// cost[1..7] of a child, weighted by the chance that a ray that hits the parent hits it.
-inline void child_costs(const Costs* c, uint child, float weight, uint count, float* out) {
-    for (int i = 0; i < 7; ++i) out[i] = weight * (child >= count ? LEAF_COST : c->costs[8 * (size_t)child + i]);
+inline float half_area(float3 extent) {
+    return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
 }
 
+inline float3 extent_of(global const Aabb* box) { return vload3(0, box->max) - vload3(0, box->min); }
+
+/// Chance that a ray that hits `parent` hits `a` and `b`, by surface area. Extents are first divided by the parent's
+/// largest, so that no product leaves the range of floats. A parent without area counts as always hit.
+inline float2 hit_chances(global const Aabb* parent, global const Aabb* a, global const Aabb* b) {
+    const float3 extent = extent_of(parent);
+    const float unit = max(max(extent.x, extent.y), extent.z);
+    const float whole = half_area(extent / unit);
+    if (!(whole > 0.0f)) return (float2)(1.0f, 1.0f); // also when the unit was 0 and the quotients NaN
+    return (float2)(half_area(extent_of(a) / unit), half_area(extent_of(b) / unit)) / whole;
+}
+
+/// A child's costs, weighted by the chance that a ray that hits the parent hits it.
+inline float8 child_costs(const Costs* c, uint child, float weight, uint count) {
+    return weight * (child >= count ? (float8)(LEAF_COST) : vload8(child, c->costs));
+}
+
+/// One step of the search for the best share: the left child gets `s` of the boxes, at cost `left`; lane j - 1 of
+/// `right` is the cost of the other child with j - s boxes, infinite where that is none.
+inline void try_share(float left, float8 right, int s, float8* best, int8* share) {
+    const float8 cost = left + right;
+    const int8 better = cost < *best;
+    *best = better ? cost : *best;
+    *share = better ? (int8)(s) : *share;
+}
+
+/// Costs and choices of a node from those of its children. Lane j - 1 of the work is for j boxes.
 inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
     const float2 weight = hit_chances(c->volumes + node, c->volumes + children.x, c->volumes + children.y);
-    float a[7], b[7], shared_out[9];
-    child_costs(c, children.x, weight.x, count, a);
-    child_costs(c, children.y, weight.y, count, b);
-    for (int boxes = 2; boxes <= 8; ++boxes) {
-        float best = INFINITY;
-        for (int left = 1; left < boxes; ++left) {
-            const float cost = a[left - 1] + b[boxes - left - 1];
-            best = cost < best ? cost : best;
+    const float8 a = child_costs(c, children.x, weight.x, count);
+    const float8 b = child_costs(c, children.y, weight.y, count);
+    const float none = INFINITY;
+    float8 best = (float8)(none);
+    int8 share = (int8)(0);
+    try_share(a.s0, (float8)(none, b.s0, b.s1, b.s2, b.s3, b.s4, b.s5, b.s6), 1, &best, &share);
+    try_share(a.s1, (float8)(none, none, b.s0, b.s1, b.s2, b.s3, b.s4, b.s5), 2, &best, &share);
+    try_share(a.s2, (float8)(none, none, none, b.s0, b.s1, b.s2, b.s3, b.s4), 3, &best, &share);
+    try_share(a.s3, (float8)(none, none, none, none, b.s0, b.s1, b.s2, b.s3), 4, &best, &share);
+    try_share(a.s4, (float8)(none, none, none, none, none, b.s0, b.s1, b.s2), 5, &best, &share);
+    try_share(a.s5, (float8)(none, none, none, none, none, none, b.s0, b.s1), 6, &best, &share);
+    try_share(a.s6, (float8)(none, none, none, none, none, none, none, b.s0), 7, &best, &share);
+    float cost[8];
+    vstore8(best, 0, cost);
+    int chosen[8];
+    vstore8(share, 0, chosen);
+
+    uint word = (uint)chosen[7] << 18;
+    float least = NODE_COST + cost[7];
+    if (range_size(node, c->far_ends) <= LEAF_SIZE && LEAF_COST <= least) {
+        least = LEAF_COST;
+        word |= SHARES_LEAF;
+    }
+    cost[0] = least;
+    for (int j = 2; j <= 7; ++j) {
+        if (cost[j - 1] < least) {
+            least = cost[j - 1];
+            word |= (uint)chosen[j - 1] << (3 * (j - 2));
         }
-        shared_out[boxes] = best;
+        cost[j - 1] = least;
     }
-    global float* out = c->costs + 8 * (size_t)node;
-    out[7] = shared_out[8];
-    float best = NODE_COST + shared_out[8];
-    if (range_size(node, c->far_ends) <= LEAF_SIZE && LEAF_COST <= best) best = LEAF_COST;
-    out[0] = best;
-    for (int boxes = 2; boxes <= 7; ++boxes) {
-        best = shared_out[boxes] < best ? shared_out[boxes] : best;
-        out[boxes - 1] = best;
-    }
+    cost[7] = least;
+    vstore8(vload8(0, cost), node, c->costs);
+    c->shares[node] = word;
 }
 
 #include "hierarchy/climb.h"
 
-/// Costs of the nodes of one slice of positions. Before: arrivals are 0.
+/// Costs and shares of the nodes of one slice of positions. Before: arrivals are 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void collapse_cost(global const Aabb* volumes, global const uint2* children, global const uint* parents,
-                   global const uint* far_ends, global handoff_t* arrivals, global float* costs, uint count,
-                   uint slice) {
+                   global const uint* far_ends, global handoff_t* arrivals, global float* costs, global uint* shares,
+                   uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const Climb climb = {children, parents, far_ends, arrivals, count};
-    const Costs data = {volumes, far_ends, costs};
+    const Costs data = {volumes, far_ends, costs, shares};
     climb_slice(&climb, &data, begin, min(begin + slice, count));
 }

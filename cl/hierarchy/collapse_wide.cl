@@ -3,12 +3,12 @@
 // costs of collapse_cost.cl (Ylitie et al. 2017), number them by scans, write nodes and leaves. Numbering is breadth
 // first, so children stand together and after their parents.
 //
-// LEAF_SIZE, NODE_COST, LEAF_COST  as in collapse_cost.cl
 // TRIANGLE_LEAVES  1: a leaf is a block of up to four triangles; 0: a leaf is one primitive, named by its own index
-// compile: LEAF_SIZE=4 NODE_COST=1.0f LEAF_COST=1.0f TRIANGLE_LEAVES=1
-// compile: LEAF_SIZE=1 NODE_COST=1.0f LEAF_COST=4.0f TRIANGLE_LEAVES=0
+// compile: TRIANGLE_LEAVES=1
+// compile: TRIANGLE_LEAVES=0
 #include "runtime/numerics.h"
-#include "hierarchy/collapse_cost.h"
+#include "hierarchy/forest.h"
+#include "hierarchy/shares.h"
 #include "shared/node.h"
 #include "shared/triangle.h"
 
@@ -16,40 +16,10 @@
 #error "define TRIANGLE_LEAVES"
 #endif
 
-// The binary node count is below 2^30, so node indices (below 2 count) leave the leaf mark free.
-typedef struct Chooser {
-    global const Aabb* volumes;
-    global const uint2* children;
-    global const uint* far_ends;
-    global const float* costs;
-    uint count;
-} Chooser;
-
-/// Least cost of binary node `node` as up to `boxes` boxes, 1..7.
-inline float cost_of(const Chooser* c, uint node, uint boxes) {
-    return node >= c->count ? LEAF_COST : c->costs[8 * (size_t)node + boxes - 1];
-}
-
-/// True when `node` as one box is cheapest as a leaf.
-inline bool is_leaf(const Chooser* c, uint node) {
-    return node >= c->count || (range_size(node, c->far_ends) <= LEAF_SIZE &&
-                                LEAF_COST <= NODE_COST + c->costs[8 * (size_t)node + 7]);
-}
-
-/// How many of `boxes` >= 2 boxes the left child gets when `node` is shared out: the first cheapest share.
-inline uint left_share(const Chooser* c, uint node, uint2 children, uint boxes) {
-    const float2 weight = hit_chances(c->volumes + node, c->volumes + children.x, c->volumes + children.y);
-    uint share = 1;
-    float best = INFINITY;
-    for (uint left = 1; left < boxes; ++left) {
-        const float cost =
-            weight.x * cost_of(c, children.x, left) + weight.y * cost_of(c, children.y, boxes - left);
-        if (cost < best) {
-            best = cost;
-            share = left;
-        }
-    }
-    return share;
+/// True when `node` as one box is a leaf. The binary node count is below 2^30, so node indices (below 2 count) leave the
+/// mark BOXWOOD_LEAF free.
+inline bool is_leaf(global const uint* shares, uint node, uint count) {
+    return node >= count || (shares[node] & SHARES_LEAF) != 0;
 }
 
 /// A pending binary node and the boxes it may become.
@@ -58,37 +28,29 @@ typedef struct Share {
     uint boxes;
 } Share;
 
-/// The boxes that `share` really becomes: fewer than allowed where more do not pay.
-inline uint boxes_used(const Chooser* c, Share share) {
-    uint boxes = share.boxes;
-    while (boxes > 1 && cost_of(c, share.node, boxes - 1) <= cost_of(c, share.node, boxes)) --boxes;
-    return boxes;
-}
-
 /// Children of one wide node made from binary node `root`, left to right, as binary node indices. Returns their number.
-inline uint choose(const Chooser* c, uint root, uint* chosen) {
-    if (is_leaf(c, root)) {
+inline uint choose(global const uint2* children, global const uint* shares, uint root, uint count, uint* chosen) {
+    if (is_leaf(shares, root, count)) {
         chosen[0] = root;
         return 1;
     }
-    // Shares left to handle add up to at most 8 boxes, so 8 entries suffice.
+    // The boxes that pending nodes may become add up to at most 8, so 8 entries suffice.
     Share pending[8];
-    const uint2 children = c->children[root];
-    const uint share = left_share(c, root, children, 8);
-    // A share is at most 7: the other child has at least one box.
-    pending[0] = (Share){children.y, 8 - share};
-    pending[1] = (Share){children.x, share};
-    uint waiting = 2, found = 0;
+    pending[0] = (Share){root, 8};
+    uint waiting = 1, found = 0;
     while (waiting > 0) {
-        const Share top = pending[--waiting];
-        const uint boxes = boxes_used(c, top);
-        if (boxes == 1) {
+        Share top = pending[--waiting];
+        uint left = 0;
+        if (top.node < count) {
+            const uint word = shares[top.node];
+            while (top.boxes > 1 && (left = share_of(word, top.boxes)) == 0) --top.boxes;
+        }
+        if (left == 0) {
             chosen[found++] = top.node;
             continue;
         }
-        const uint2 below = c->children[top.node];
-        const uint left = left_share(c, top.node, below, boxes);
-        pending[waiting++] = (Share){below.y, boxes - left};
+        const uint2 below = children[top.node];
+        pending[waiting++] = (Share){below.y, top.boxes - left};
         pending[waiting++] = (Share){below.x, left};
     }
     return found;
@@ -113,20 +75,19 @@ void level_totals(global const uint* inner_starts, global const uint* leaf_start
 /// For each wide node of one level: kids[8 w ..] = its children as binary nodes, leaves marked by BOXWOOD_LEAF;
 /// inner_counts[w], leaf_counts[w] = how many of each; the rest of kids is BOXWOOD_NONE.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void choose_children(global const Aabb* volumes, global const uint2* children, global const uint* far_ends,
-                     global const float* costs, global const uint* sources, global uint* kids,
-                     global uint* inner_counts, global uint* leaf_counts, uint count, uint level_size) {
+void choose_children(global const uint2* children, global const uint* shares, global const uint* sources,
+                     global uint* kids, global uint* inner_counts, global uint* leaf_counts, uint count,
+                     uint level_size) {
     const uint w = (uint)get_global_id(0);
     if (w == level_size) inner_counts[w] = leaf_counts[w] = 0; // so that the scans end with the totals
     if (w >= level_size) return;
-    const Chooser chooser = {volumes, children, far_ends, costs, count};
     uint chosen[8];
-    const uint found = choose(&chooser, sources[w], chosen);
+    const uint found = choose(children, shares, sources[w], count, chosen);
     uint leaves = 0;
     for (uint i = 0; i < 8; ++i) {
         uint kid = BOXWOOD_NONE;
         if (i < found) {
-            const bool leaf = is_leaf(&chooser, chosen[i]);
+            const bool leaf = is_leaf(shares, chosen[i], count);
             leaves += leaf ? 1u : 0u;
             kid = leaf ? chosen[i] | BOXWOOD_LEAF : chosen[i];
         }

@@ -37,19 +37,28 @@ inline KEY spread(uint bits) {
 }
 #endif
 
-/// Cell of `center` along one axis of the cube [low, low + side]; cell 0 when the cube is a point.
-inline uint cell(float center, float low, float side) {
-    const float cells = (float)(1 << AXIS_BITS);
-    const float position = side > 0.0f ? (center - low) / side : 0.0f;
-    return min((uint)(position * cells), (1u << AXIS_BITS) - 1u);
+/// Maps positions of one tree to cells: its lower corner, and cells per length in the cube of its largest extent (0 for
+/// a point, so that all lands in cell 0). The product rounds alike at every power-of-two scale.
+typedef struct Grid {
+    float3 low;
+    float scale;
+} Grid;
+
+inline Grid grid_of(global const Aabb* bounds) {
+    const float3 low = vload3(0, bounds->min);
+    const float3 extent = vload3(0, bounds->max) - low;
+    const float side = max(max(extent.x, extent.y), extent.z);
+    const Grid grid = {low, side > 0.0f ? (float)(1 << AXIS_BITS) / side : 0.0f};
+    return grid;
 }
 
-inline KEY code(Aabb box, Aabb bounds) {
-    const float side = max(max(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1]),
-                           bounds.max[2] - bounds.min[2]);
-    const KEY x = spread(cell(0.5f * box.min[0] + 0.5f * box.max[0], bounds.min[0], side));
-    const KEY y = spread(cell(0.5f * box.min[1] + 0.5f * box.max[1], bounds.min[1], side));
-    const KEY z = spread(cell(0.5f * box.min[2] + 0.5f * box.max[2], bounds.min[2], side));
+inline KEY code(global const Aabb* box, Grid grid) {
+    const float3 center = 0.5f * vload3(0, box->min) + 0.5f * vload3(0, box->max);
+    const float3 place = (center - grid.low) * grid.scale;
+    const float last = (float)((1 << AXIS_BITS) - 1);
+    const KEY x = spread((uint)min(place.x, last));
+    const KEY y = spread((uint)min(place.y, last));
+    const KEY z = spread((uint)min(place.z, last));
     return (x << 2) | (y << 1) | z;
 }
 
@@ -62,18 +71,18 @@ void morton_keys(global const Aabb* boxes, global const uint* offsets, global co
     const uint end = min(begin + slice, count);
     uint tree = tree_of(offsets, trees, begin);
     uint tree_end = offsets[tree + 1];
-    Aabb bounds = tree_bounds[tree];
+    Grid grid = grid_of(tree_bounds + tree);
     for (uint i = begin; i < end; ++i) {
         if (i >= tree_end) {
             ++tree;
             tree_end = offsets[tree + 1];
-            bounds = tree_bounds[tree];
+            grid = grid_of(tree_bounds + tree);
         }
         order[i] = i;
 #if FOREST
-        keys[i] = code(boxes[i], bounds) | ((KEY)tree << (3 * AXIS_BITS));
+        keys[i] = code(boxes + i, grid) | ((KEY)tree << (3 * AXIS_BITS));
 #else
-        keys[i] = code(boxes[i], bounds);
+        keys[i] = code(boxes + i, grid);
 #endif
     }
 }

@@ -23,13 +23,11 @@ struct Collapse {
     const Topology& topology;
     BufferView<const Aabb> volumes;
     const Geometry* geometry; ///< null for trees over instances
-    Buffer<float> costs;
+    Buffer<std::uint32_t> shares;
     std::uint32_t count = static_cast<std::uint32_t>(topology.size());
 
     KernelRef kernel(const char* name) const {
-        Defines defines = cost_model();
-        defines["TRIANGLE_LEAVES"] = geometry ? "1" : "0";
-        return {"hierarchy/collapse_wide.cl", name, defines};
+        return {"hierarchy/collapse_wide.cl", name, {{"TRIANGLE_LEAVES", geometry ? "1" : "0"}}};
     }
 
     /// Testing a block of four triangles takes about as long as testing eight boxes; an instance stands for a tree.
@@ -38,16 +36,17 @@ struct Collapse {
     }
 };
 
-Buffer<float> subtree_costs(const Collapse& c) {
-    // Eight floats for each inner node can pass the largest buffer before anything else here does.
-    Buffer<float> costs = make_scratch<float>(c.device, 8 * static_cast<std::size_t>(c.count), "collapse costs");
+/// The choices of cl/hierarchy/shares.h for every inner node.
+Buffer<std::uint32_t> choose_shares(const Collapse& c) {
+    Buffer<std::uint32_t> shares = make_scratch<std::uint32_t>(c.device, c.count, "collapse choices");
+    const Buffer<float> costs = make_scratch<float>(c.device, 8 * static_cast<std::size_t>(c.count), "collapse costs");
     const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(c.device, c.count, "arrivals at splits");
     fill<std::uint32_t>(c.device, arrivals, 0);
     const Slices slices = cut(c.device, c.count);
     launch(c.device, {"hierarchy/collapse_cost.cl", "collapse_cost", c.cost_model()}, "collapse costs", slices.slices,
-           c.volumes, c.topology.children, c.topology.parents, c.topology.far_ends, arrivals, costs, c.count,
+           c.volumes, c.topology.children, c.topology.parents, c.topology.far_ends, arrivals, costs, shares, c.count,
            slices.length);
-    return costs;
+    return shares;
 }
 
 /// The binary nodes that become the wide roots: the root of tree t, or its leaf if that is all.
@@ -64,9 +63,8 @@ Level choose_children(const Collapse& c, BufferView<const std::uint32_t> sources
     level.kids = make_scratch<std::uint32_t>(c.device, 8 * sources.size(), "children of a level");
     level.inner_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "inner children of a level");
     level.leaf_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "leaves of a level");
-    launch(c.device, c.kernel("choose_children"), "choose children", level.size + 1, c.volumes, c.topology.children,
-           c.topology.far_ends, c.costs, sources, level.kids, level.inner_starts, level.leaf_starts, c.count,
-           level.size);
+    launch(c.device, c.kernel("choose_children"), "choose children", level.size + 1, c.topology.children, c.shares,
+           sources, level.kids, level.inner_starts, level.leaf_starts, c.count, level.size);
     exclusive_scan<std::uint32_t>(c.device, level.inner_starts, Operator::sum, level.inner_starts);
     exclusive_scan<std::uint32_t>(c.device, level.leaf_starts, Operator::sum, level.leaf_starts);
     return level;
@@ -118,10 +116,10 @@ void write_levels(const Collapse& c, const std::vector<Level>& levels, const std
 WideLayout collapse(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                     const Geometry* geometry) {
     Collapse c{device, topology, volumes, geometry, {}};
-    c.costs = subtree_costs(c);
+    c.shares = choose_shares(c);
     std::vector<cl_uint2> sizes;
     const std::vector<Level> levels = choose_levels(c, sizes);
-    c.costs = {};
+    c.shares = {};
 
     std::size_t nodes = 0, leaves = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
