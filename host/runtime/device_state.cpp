@@ -20,6 +20,13 @@ cl::CommandQueue make_queue(const cl::Context& context, const cl::Device& device
     return cl::CommandQueue(queue);
 }
 
+/// Device time of a complete command.
+double device_ms(const cl::Event& event) {
+    const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    return static_cast<double>(end - start) * 1e-6;
+}
+
 } // namespace
 
 DeviceState::DeviceState(cl::Device device_, DeviceInfo info_)
@@ -51,6 +58,14 @@ cl::Kernel& DeviceState::kernel(const std::string& file, const std::string& name
     }
 }
 
+void DeviceState::count_first_launch(const cl::Kernel& kernel, const cl::Event& event,
+                                     std::chrono::steady_clock::time_point start) {
+    if (!launched_.insert(kernel()).second) return;
+    event.wait();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    compile_ms += std::max(0.0, elapsed.count() - device_ms(event));
+}
+
 void DeviceState::record(const char* label, cl::Event event) {
     const auto [found, added] = pass_index_.try_emplace(stage + '\n' + label, profile_.passes.size());
     if (added) profile_.passes.push_back({stage, label, 0, 0.0});
@@ -63,10 +78,8 @@ void DeviceState::record(const char* label, cl::Event event) {
 void DeviceState::resolve_pending() {
     for (const Pending& launch : pending_) {
         launch.event.wait();
-        const auto start = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-        const auto end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
         PassTime& pass = profile_.passes[launch.pass];
-        pass.ms += static_cast<double>(end - start) * 1e-6;
+        pass.ms += device_ms(launch.event);
         ++pass.launches;
     }
     pending_.clear();

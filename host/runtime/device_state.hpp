@@ -8,7 +8,9 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 200
 #define CL_USE_DEPRECATED_OPENCL_1_2_APIS
 
+#include <chrono>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,11 @@ public:
 
     /// The kernel `name` of `file` compiled with `options`; compiled at most once. Throws ProgramError.
     cl::Kernel& kernel(const std::string& file, const std::string& name, const std::string& options);
+
+    /// Called after the first launch of a kernel, which is when some devices (PoCL) finish compiling it: waits for it and
+    /// counts what was not device time since `start` as compilation.
+    void count_first_launch(const cl::Kernel& kernel, const cl::Event& event,
+                            std::chrono::steady_clock::time_point start);
 
     /// Remembers a launch for the profile.
     void record(const char* label, cl::Event event);
@@ -59,6 +66,7 @@ private:
 
     std::map<std::string, cl::Program> programs_;
     std::map<std::string, cl::Kernel> kernels_;
+    std::set<cl_kernel> launched_;            ///< Kernels launched at least once.
     std::multimap<std::size_t, cl_mem> pool_; ///< Free scratch by size in bytes.
     std::vector<Pending> pending_;
     std::map<std::string, std::size_t> pass_index_;

@@ -2,6 +2,7 @@
 #include "runtime/launch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <limits>
 
@@ -48,8 +49,10 @@ void detail::enqueue(Device& device, const KernelRef& ref, const char* label, st
         const std::size_t group = device.tuning().group_size;
         const std::size_t items = ((work_items - 1) / group + 1) * group;
         cl::Event event;
+        const auto start = std::chrono::steady_clock::now();
         device.state().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(group),
                                                   nullptr, &event);
+        device.state().count_first_launch(kernel, event, start);
         device.state().record(label, std::move(event));
     } catch (const cl::Error& error) {
         throw DeviceError(error.err(), error.what(), ref.name, label);
