@@ -23,6 +23,9 @@ inline uint lanes4_portable(int4 mask) {
     return (uint)(half_sum.lo | half_sum.hi);
 }
 
+/// The lowest bit set in a mask that is not zero.
+inline uint first_lane(uint mask) { return 31 - clz(mask & -mask); }
+
 #if !PORTABLE_LANES && defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
 inline uint lanes8(int8 mask) { return (uint)__builtin_ia32_movmskps256(as_float8(mask)); }
 inline uint lanes4(int4 mask) { return (uint)__builtin_ia32_movmskps(as_float4(mask)); }

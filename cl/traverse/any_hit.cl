@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Whether each ray hits anything. Macros: traverse/config.h.
+#define ANY_HIT 1
+#include "traverse/traversal.h"
+
+/// Each work-item traces `slice` consecutive rays.
+///
+/// @pre  A valid, not empty tree within the stack bound of walk.h. `top_nodes` and `instances` are read for two levels
+///       only and may otherwise be null.
+/// @post hits[i] is 1 when rays[i] hits something, else 0.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
+    global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
+    global const InstanceRecord* instances, global const Ray* rays, uint ray_count, uint slice, global uint* hits) {
+    const uint first = (uint)get_global_id(0) * slice;
+    const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
+    for (uint i = first; i < last; ++i) {
+        Walk walk;
+        LocalRay ray;
+        float scale;
+        if (begin_walk(&rays[i], &ray, &scale, &walk)) {
+#if LEVELS == 2
+            traverse_top(&ray, top_nodes, instances, nodes, leaves, &walk);
+#else
+            traverse_bottom(&ray, nodes, leaves, 0, 0, &walk);
+#endif
+        }
+        hits[i] = walk.primitive != BOXWOOD_NONE ? 1 : 0;
+    }
+}

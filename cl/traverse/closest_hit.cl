@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Closest hit of each ray. Macros: traverse/config.h.
+#define ANY_HIT 0
+#include "traverse/traversal.h"
+
+#if FLATTENED
+
+/// The instance that triangle `primitive` of the flattened scene belongs to: the last that starts at or before it.
+inline uint instance_of(uint primitive, global const uint* first_triangles, uint instance_count) {
+    uint low = 0;
+    uint high = instance_count;
+    while (high - low > 1) {
+        const uint middle = low + (high - low) / 2;
+        if (first_triangles[middle] <= primitive) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+#endif
+
+/// Each work-item traces `slice` consecutive rays; a ray's work is not known beforehand, so slices are short and many.
+///
+/// @pre  A valid, not empty tree within the stack bound of walk.h. `top_nodes` and `instances` are read for two levels
+///       only, `first_triangles` (instance_count + 1 entries) for flattened trees only, `statistics` is written for
+///       statistics only; otherwise they may be null.
+/// @post hits[i] is the answer for rays[i]: the smallest t, then the lowest (instance, primitive).
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
+    global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
+    global const InstanceRecord* instances, global const uint* first_triangles, uint instance_count,
+    global const Ray* rays, uint ray_count, uint slice, global Hit* hits, global RayStatistics* statistics) {
+    const uint first = (uint)get_global_id(0) * slice;
+    const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
+    for (uint i = first; i < last; ++i) {
+        Walk walk;
+        LocalRay ray;
+        float scale;
+        if (begin_walk(&rays[i], &ray, &scale, &walk)) {
+#if LEVELS == 2
+            traverse_top(&ray, top_nodes, instances, nodes, leaves, &walk);
+#else
+            traverse_bottom(&ray, nodes, leaves, 0, 0, &walk);
+#endif
+        }
+#if FLATTENED
+        if (walk.primitive != BOXWOOD_NONE) {
+            walk.instance = instance_of(walk.primitive, first_triangles, instance_count);
+            walk.primitive -= first_triangles[walk.instance];
+        }
+#endif
+        hits[i].t = walk.primitive == BOXWOOD_NONE ? INFINITY : walk.t_max * scale;
+        hits[i].u = walk.u;
+        hits[i].v = walk.v;
+        hits[i].primitive = walk.primitive;
+        hits[i].instance = walk.instance;
+#if STATISTICS
+        statistics[i] = walk.statistics;
+#endif
+    }
+}

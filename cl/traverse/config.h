@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// What a traversal program is specialised for. Everything that is not asked for is compiled out.
+//
+// ANY_HIT         0: closest hit; 1: any hit.
+// LAYOUT          2: `binary` nodes and single triangles; 8: `wide8` nodes and blocks of four triangles.
+// LEVELS          1: one tree in world space; 2: a tree over instances above a tree per mesh.
+// FLATTENED       1: one level that holds the triangles of several instances; 0: anything else.
+// STATISTICS      1: count the volumes and primitives tested.
+// STACK_SIZE      Entries of the stack, see stack.h.
+// PORTABLE_LANES  See runtime/lanes.h.
+#ifndef BOXWOOD_TRAVERSE_CONFIG_H
+#define BOXWOOD_TRAVERSE_CONFIG_H
+
+#if !defined(ANY_HIT) || !defined(LAYOUT) || !defined(LEVELS) || !defined(FLATTENED) || !defined(STATISTICS) || \
+    !defined(STACK_SIZE) || !defined(GROUP_SIZE)
+#error "define ANY_HIT, LAYOUT, LEVELS, FLATTENED, STATISTICS, STACK_SIZE and GROUP_SIZE"
+#endif
+#if (LAYOUT != 2 && LAYOUT != 8) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || STACK_SIZE < 1
+#error "LAYOUT is 2 or 8, LEVELS is 1 or 2, only one level can be flattened, and the stack is not empty"
+#endif
+
+#include "runtime/lanes.h"
+#include "runtime/numerics.h"
+#include "shared/instance.h"
+#include "shared/node.h"
+#include "shared/ray.h"
+#include "shared/triangle.h"
+
+#if LAYOUT == 8
+typedef Wide8Node node_t;
+typedef Triangle4 leaf_t;
+#else
+typedef BinaryNode node_t;
+typedef Triangle leaf_t;
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Ray against the child boxes of a node, by slabs. The test is conservative (see local_ray.h) and boxes are closed: a ray in
+// the plane of a face enters.
+#ifndef BOXWOOD_TRAVERSE_RAY_BOX_H
+#define BOXWOOD_TRAVERSE_RAY_BOX_H
+#include "runtime/lanes.h"
+#include "shared/node.h"
+#include "traverse/local_ray.h"
+
+// The operand order matters: when `candidate` is NaN (0 * inf: a ray in the plane of a face) the running value stays.
+#define LATER(candidate, running) ((candidate) > (running) ? (candidate) : (running))
+#define EARLIER(candidate, running) ((candidate) < (running) ? (candidate) : (running))
+
+/// Entry distance of one axis: `planes` are the low faces when the direction is not negative, else the high ones.
+#define ENTRY(planes, axis) (((planes) - ray->origin.axis) * ray->near_inverse.axis)
+#define EXIT(planes, axis) (((planes) - ray->origin.axis) * ray->far_inverse.axis)
+
+/// Where the ray is inside one box within [t_min, t_max]: from *entry on. False when nowhere. The empty box is nowhere.
+inline bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, float t_max, float* entry) {
+    const bool down_x = ray->direction.x < 0.0f;
+    const bool down_y = ray->direction.y < 0.0f;
+    const bool down_z = ray->direction.z < 0.0f;
+    const float entry_x = ENTRY(down_x ? box->max[0] : box->min[0], x);
+    const float entry_y = ENTRY(down_y ? box->max[1] : box->min[1], y);
+    const float entry_z = ENTRY(down_z ? box->max[2] : box->min[2], z);
+    const float exit_x = EXIT(down_x ? box->min[0] : box->max[0], x);
+    const float exit_y = EXIT(down_y ? box->min[1] : box->max[1], y);
+    const float exit_z = EXIT(down_z ? box->min[2] : box->max[2], z);
+    float first = LATER(entry_x, t_min);
+    first = LATER(entry_y, first);
+    first = LATER(entry_z, first);
+    float last = EARLIER(exit_x, t_max);
+    last = EARLIER(exit_y, last);
+    last = EARLIER(exit_z, last);
+    *entry = first;
+    return first <= last;
+}
+
+/// The eight children of a wide8 node at once: bit i of the result says that child i is met, from lane i of *entry on.
+inline uint ray_box8(const LocalRay* ray, global const Wide8Node* node, float t_min, float t_max, float8* entry) {
+    // Rows of eight floats: min_x, max_x, min_y, max_y, min_z, max_z.
+    global const float* rows = node->min_x;
+    const uint near_x = ray->direction.x < 0.0f ? 1 : 0;
+    const uint near_y = ray->direction.y < 0.0f ? 3 : 2;
+    const uint near_z = ray->direction.z < 0.0f ? 5 : 4;
+    const float8 entry_x = ENTRY(vload8(near_x, rows), x);
+    const float8 entry_y = ENTRY(vload8(near_y, rows), y);
+    const float8 entry_z = ENTRY(vload8(near_z, rows), z);
+    const float8 exit_x = EXIT(vload8(near_x ^ 1, rows), x);
+    const float8 exit_y = EXIT(vload8(near_y ^ 1, rows), y);
+    const float8 exit_z = EXIT(vload8(near_z ^ 1, rows), z);
+    float8 first = (float8)(t_min);
+    first = LATER(entry_x, first);
+    first = LATER(entry_y, first);
+    first = LATER(entry_z, first);
+    float8 last = (float8)(t_max);
+    last = EARLIER(exit_x, last);
+    last = EARLIER(exit_y, last);
+    last = EARLIER(exit_z, last);
+    *entry = first;
+    return lanes8(first <= last);
+}
+
+#endif

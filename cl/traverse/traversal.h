@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The traversal of one ray, closest hit or any hit, one level or two: depth first, nearest child first, with an explicit
+// stack (dissertation 3.4 and 3.6.3; lecture slides on closest-hit and boolean intersection).
+#ifndef BOXWOOD_TRAVERSE_TRAVERSAL_H
+#define BOXWOOD_TRAVERSE_TRAVERSAL_H
+#include "traverse/visit_node.h"
+
+/// True once nothing can change the answer any more.
+inline bool is_settled(const Walk* walk) { return ANY_HIT && walk->primitive != BOXWOOD_NONE; }
+
+/// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit; BOXWOOD_NONE when none is left.
+inline uint next_reference(Walk* walk, uint bottom) {
+    while (walk->top > bottom) {
+        const entry_t entry = walk->stack[--walk->top];
+        if (ENTRY_DISTANCE(entry) <= walk->t_max) return (uint)entry;
+    }
+    return BOXWOOD_NONE;
+}
+
+/// Everything below node `reference`. BOXWOOD_NONE has the leaf bit, so the inner loop ends where nothing is met.
+inline void traverse_bottom(const LocalRay* ray, global const node_t* nodes, global const leaf_t* leaves,
+                            uint reference, uint instance, Walk* walk) {
+    const uint bottom = walk->top;
+    do {
+        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, &nodes[reference], walk);
+        if (reference != BOXWOOD_NONE) visit_leaf(ray, &leaves[reference & ~BOXWOOD_LEAF], instance, walk);
+        if (is_settled(walk)) return;
+        reference = next_reference(walk, bottom);
+    } while (reference != BOXWOOD_NONE);
+}
+
+#if LEVELS == 2
+
+inline void traverse_top(const LocalRay* ray, global const node_t* top_nodes, global const InstanceRecord* instances,
+                         global const node_t* nodes, global const leaf_t* leaves, Walk* walk) {
+    uint reference = 0;
+    do {
+        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, &top_nodes[reference], walk);
+        if (reference != BOXWOOD_NONE) {
+            const uint instance = reference & ~BOXWOOD_LEAF;
+            const LocalRay local_ray = to_object_space(ray, &instances[instance]);
+            traverse_bottom(&local_ray, nodes, leaves, instances[instance].root, instance, walk);
+        }
+        if (is_settled(walk)) return;
+        reference = next_reference(walk, 0);
+    } while (reference != BOXWOOD_NONE);
+}
+
+#endif
+
+/// Sets up `walk` and the ray in world space, with its direction scaled by the power of two *scale: distances in `walk`
+/// are t / *scale. False when the ray cannot hit anything.
+inline bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Walk* walk) {
+    const float4 origin = vload4(0, source->origin);
+    const float4 direction = vload4(0, source->direction);
+    walk->primitive = BOXWOOD_NONE;
+    walk->instance = BOXWOOD_NONE;
+    walk->u = 0.0f;
+    walk->v = 0.0f;
+    walk->top = 0;
+#if STATISTICS
+    walk->statistics.volumes = 0;
+    walk->statistics.primitives = 0;
+#endif
+    *scale = direction_scale(direction.xyz);
+    if (!is_valid_ray(origin, direction)) return false;
+    const float to_scaled = 1.0f / *scale;
+    *ray = make_local_ray(origin.xyz, direction.xyz * *scale);
+    walk->t_min = origin.w * to_scaled;
+    // No hit at an infinite distance, in either unit: that is how a miss is written.
+    walk->t_max = fmin(fmin(direction.w, FLT_MAX) * to_scaled, FLT_MAX);
+    return true;
+}
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What a traversal carries from node to node: the interval left, the best hit so far, the stack.
+#ifndef BOXWOOD_TRAVERSE_WALK_H
+#define BOXWOOD_TRAVERSE_WALK_H
+#include "traverse/config.h"
+#include "traverse/ray_triangle.h"
+
+// A stack entry is a child reference; for closest hit with the distance to the child's box in the upper half. Distances
+// are not negative, so entries compare as their distances do.
+#if ANY_HIT
+typedef uint entry_t;
+#define ENTRY_OF(distance, reference) (reference)
+#define ENTRY_DISTANCE(entry) 0.0f
+#else
+typedef ulong entry_t;
+#define ENTRY_OF(distance, reference) ((ulong)as_uint(distance) << 32 | (reference))
+#define ENTRY_DISTANCE(entry) as_float((uint)((entry) >> 32))
+#endif
+
+/// STACK_SIZE suffices when it is LAYOUT - 1 times the most nodes on a path from the root to a leaf's parent, both
+/// levels added up. Proof: the traversal is depth first, so the entries present are siblings of nodes on the path to the
+/// node at hand (in a bottom tree: siblings on the way down it, above those on the way to its instance); a node on the
+/// path leaves behind all of its children but the one that was entered, at most LAYOUT - 1, and it was itself taken off.
+typedef struct Walk {
+    float t_min;
+    float t_max; ///< Where the search ends: t of the best hit, once there is one. Always finite.
+    float u, v;
+    uint primitive; ///< BOXWOOD_NONE until something is hit.
+    uint instance;
+#if STATISTICS
+    RayStatistics statistics;
+#endif
+    uint top; ///< Entries on the stack.
+    entry_t stack[STACK_SIZE];
+} Walk;
+
+/// Tests a leaf's triangles and keeps the best hit: the smallest t, then the lowest (instance, primitive).
+inline void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint instance, Walk* walk) {
+#if STATISTICS
+#if LAYOUT == 8
+    const uint4 used = vload4(0, leaf->primitive) != BOXWOOD_NONE ? (uint4)(1) : (uint4)(0);
+    walk->statistics.primitives += used.x + used.y + used.z + used.w;
+#else
+    walk->statistics.primitives += 1;
+#endif
+#endif
+    Crossing crossing;
+    uint hits = ray_triangle(ray, leaf, walk->t_min, walk->t_max, &crossing);
+#if ANY_HIT
+    if (hits != 0) walk->primitive = 0;
+#elif LAYOUT == 8
+    float t[4], u[4], v[4];
+    if (hits == 0) return;
+    vstore4(crossing.t, 0, t);
+    vstore4(crossing.u, 0, u);
+    vstore4(crossing.v, 0, v);
+    for (; hits != 0; hits &= hits - 1) {
+        const uint lane = first_lane(hits);
+        const uint primitive = leaf->primitive[lane];
+        const bool lower = instance < walk->instance || (instance == walk->instance && primitive < walk->primitive);
+        if (t[lane] < walk->t_max || (t[lane] == walk->t_max && lower)) {
+            walk->t_max = t[lane];
+            walk->u = u[lane];
+            walk->v = v[lane];
+            walk->primitive = primitive;
+            walk->instance = instance;
+        }
+    }
+#else
+    const bool lower =
+        instance < walk->instance || (instance == walk->instance && leaf->primitive < walk->primitive);
+    if (hits != 0 && (crossing.t < walk->t_max || lower)) {
+        walk->t_max = crossing.t;
+        walk->u = crossing.u;
+        walk->v = crossing.v;
+        walk->primitive = leaf->primitive;
+        walk->instance = instance;
+    }
+#endif
+}
+
+#endif

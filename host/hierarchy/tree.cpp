@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/tree.hpp"
+
+namespace boxwood {
+
+TreeImage download(Device& device, const Tree& tree) {
+    TreeImage image;
+    image.layout = tree.layout;
+    image.levels = tree.levels;
+    image.binary_nodes = download(device, tree.binary_nodes);
+    image.triangles = download(device, tree.triangles);
+    image.wide_nodes = download(device, tree.wide_nodes);
+    image.blocks = download(device, tree.blocks);
+    image.binary_top = download(device, tree.binary_top);
+    image.wide_top = download(device, tree.wide_top);
+    image.instances = download(device, tree.instances);
+    image.first_triangles = download(device, tree.first_triangles);
+    image.bottom_depth = tree.bottom_depth;
+    image.top_depth = tree.top_depth;
+    return image;
+}
+
+Tree upload(Device& device, const TreeImage& image) {
+    Tree tree;
+    tree.layout = image.layout;
+    tree.levels = image.levels;
+    tree.binary_nodes = upload(device, image.binary_nodes, "binary nodes");
+    tree.triangles = upload(device, image.triangles, "triangles");
+    tree.wide_nodes = upload(device, image.wide_nodes, "wide8 nodes");
+    tree.blocks = upload(device, image.blocks, "triangle blocks");
+    tree.binary_top = upload(device, image.binary_top, "binary top nodes");
+    tree.wide_top = upload(device, image.wide_top, "wide8 top nodes");
+    tree.instances = upload(device, image.instances, "instances");
+    tree.first_triangles = upload(device, image.first_triangles, "first triangles");
+    tree.bottom_depth = image.bottom_depth;
+    tree.top_depth = image.top_depth;
+    return tree;
+}
+
+} // namespace boxwood

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "traverse/specialise.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "boxwood/error.hpp"
+
+namespace boxwood {
+
+std::uint32_t stack_size(const Tree& tree) {
+    const std::uint64_t siblings = tree.layout == Layout::wide8 ? 7 : 1;
+    const std::uint64_t depth = std::uint64_t{tree.bottom_depth} + tree.top_depth;
+    constexpr std::uint64_t least = 32;
+    // 2^18 entries are 2 MiB per work-item; a tree as deep as that is no tree to trace.
+    constexpr std::uint64_t most = 1u << 18;
+    if (siblings * depth > most) throw CapacityError("traversal stack entries", siblings * depth, most);
+    return static_cast<std::uint32_t>(std::bit_ceil(std::max(siblings * depth, least)));
+}
+
+KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& options) {
+    const bool any = query == Query::any;
+    const bool flattened = !any && tree.first_triangles.size() != 0;
+    return {any ? "traverse/any_hit.cl" : "traverse/closest_hit.cl",
+            any ? "any_hit" : "closest_hit",
+            {{"LAYOUT", tree.layout == Layout::wide8 ? "8" : "2"},
+             {"LEVELS", tree.levels == Levels::two ? "2" : "1"},
+             {"FLATTENED", flattened ? "1" : "0"},
+             {"STATISTICS", query == Query::closest_with_statistics ? "1" : "0"},
+             {"STACK_SIZE", std::to_string(stack_size(tree))},
+             {"PORTABLE_LANES", options.portable_lanes ? "1" : "0"}}};
+}
+
+Slices cut_rays(const Device& device, std::size_t count) {
+    constexpr std::uint32_t longest = 128;
+    constexpr std::size_t most_rays = std::numeric_limits<std::uint32_t>::max() / 2;
+    if (count == 0) return {};
+    if (count > most_rays) throw CapacityError("rays in one batch", count, most_rays);
+    const std::uint32_t length = std::min(cut(device, count).length, longest);
+    return {static_cast<std::uint32_t>((count - 1) / length + 1), length};
+}
+
+} // namespace boxwood

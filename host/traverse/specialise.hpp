@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Which traversal program a tree and a query need, and how its rays are cut.
+#pragma once
+
+#include "boxwood/trace.hpp"
+#include "runtime/launch.hpp"
+
+namespace boxwood {
+
+/// What is asked of each ray.
+enum class Query { closest, closest_with_statistics, any };
+
+/// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/walk.h), rounded up to a power of two
+/// so that few programs exist.
+std::uint32_t stack_size(const Tree& tree);
+
+/// The kernel for a query on a tree that is not empty.
+KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& options);
+
+/// Rays per work-item: those of the device's tuning, but short enough that uneven rays leave no work-item behind.
+Slices cut_rays(const Device& device, std::size_t count);
+
+} // namespace boxwood

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Whole queries against brute force, which shares the arithmetic: equal bits are asked for.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "oracles/brute_force.hpp"
+#include "oracles/reference_builder.hpp"
+#include "traverse/scenes.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("traverse");
+
+namespace {
+
+/// Closest hit, any hit, both lane twins and the statistics program of one scene, against brute force.
+void check_all_queries(const Scene& scene, const std::vector<Ray>& rays, Shape shape = Shape::sah) {
+    for (const Kind& kind : all_kinds) {
+        CAPTURE(words(kind));
+        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels, shape);
+        const std::vector<Hit> expected = BruteForce(scene, kind.levels).closest_hits(rays);
+        const std::vector<Hit> hits = trace(tree, rays);
+        CHECK(count_different(hits, expected) == 0);
+        std::vector<RayStatistics> statistics;
+        CHECK(count_different(trace(tree, rays, statistics), expected) == 0);
+        CHECK(count_different(trace(tree, rays, {.portable_lanes = true}), expected) == 0);
+        for (const bool portable : {false, true}) {
+            const std::vector<std::uint32_t> any = trace_any(tree, rays, {.portable_lanes = portable});
+            std::size_t disagreeing = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                disagreeing += any[i] != (expected[i].primitive == BOXWOOD_NONE ? 0u : 1u);
+            CHECK(disagreeing == 0);
+        }
+    }
+}
+
+std::uint32_t scaled_down(std::uint32_t size) { return small_sizes() ? std::max(size / 50, 8u) : size; }
+
+} // namespace
+
+TEST_CASE("traversal: equals brute force on random triangles") {
+    // 1 to 9: partly filled leaves and nodes of both layouts; 1000: several levels.
+    Random random(1);
+    for (const std::uint32_t triangles : {1u, 2u, 3u, 4u, 5u, 8u, 9u, 33u, 1000u}) {
+        CAPTURE(triangles);
+        const Scene scene = single(random_mesh(random, scaled_down(triangles), triangles < 10 ? 0.8f : 0.2f));
+        check_all_queries(scene, random_rays(random, scaled_down(1500), 1.0f));
+    }
+}
+
+TEST_CASE("traversal: equals brute force on instances mirrored, stretched and sheared") {
+    Random random(2);
+    for (const std::uint32_t instances : {1u, 2u, 9u, 100u}) {
+        CAPTURE(instances);
+        const Scene scene = instanced_scene(random, 3, scaled_down(instances), scaled_down(60));
+        check_all_queries(scene, random_rays(random, scaled_down(1500), 2.0f));
+    }
+}
+
+TEST_CASE("traversal: every distance tied, the lowest primitive and instance win") {
+    // A grid seen from above hits shared edges and vertices exactly; every triangle is there three times.
+    Mesh grid;
+    constexpr std::uint32_t side = 8;
+    for (std::uint32_t y = 0; y <= side; ++y)
+        for (std::uint32_t x = 0; x <= side; ++x)
+            grid.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0f);
+    for (int copy = 0; copy < 3; ++copy) {
+        for (std::uint32_t y = 0; y < side; ++y) {
+            for (std::uint32_t x = 0; x < side; ++x) {
+                const std::uint32_t i = y * (side + 1) + x;
+                grid.triangles.emplace_back(i, i + 1, i + side + 1);
+                grid.triangles.emplace_back(i + 1, i + side + 2, i + side + 1);
+            }
+        }
+    }
+    Scene scene = single(grid);
+    scene.instances.push_back({"again", 0, glm::mat4(1.0f)});
+    scene.instances.push_back({"and again", 0, glm::mat4(1.0f)});
+    std::vector<Ray> rays;
+    for (std::uint32_t y = 0; y <= 2 * side; ++y)
+        for (std::uint32_t x = 0; x <= 2 * side; ++x)
+            for (const float direction : {-1.0f, 1.0f})
+                rays.push_back({{0.5f * static_cast<float>(x), 0.5f * static_cast<float>(y), -4.0f * direction},
+                                0.0f,
+                                {0.0f, 0.0f, direction},
+                                8.0f});
+    check_all_queries(scene, rays);
+    const TreeImage tree = reference_tree(scene, Layout::wide8, Levels::two);
+    std::size_t hits = 0;
+    for (const Hit& hit : trace(tree, rays)) {
+        hits += hit.instance == 0 && hit.primitive < 2 * side * side && hit.t == 4.0f;
+    }
+    CHECK(hits == rays.size());
+}
+
+TEST_CASE("traversal: zero-area triangles are never hit, and do not hide others") {
+    Random random(3);
+    Mesh mesh = random_mesh(random, 64, 0.5f);
+    const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {a, b, c});
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    const auto begin = static_cast<std::uint32_t>(mesh.triangles.size());
+    for (int i = 0; i < 64; ++i) {
+        const glm::vec3 a = mesh.positions[static_cast<std::size_t>(3 * i)];
+        const glm::vec3 b = mesh.positions[static_cast<std::size_t>(3 * i + 1)];
+        add(a, a, a);
+        add(a, b, b);
+        add(a, b, a);
+        add(a, a, b);
+        add({0.0f, 0.0f, 0.0f}, a, 2.0f * a);
+        add({0.0f, 0.0f, 0.0f}, 0.375f * a, a);
+    }
+    std::vector<Ray> rays = random_rays(random, 1000, 1.0f);
+    // Straight at the vertices, where all of them are.
+    for (std::size_t i = 0; i < 64; ++i) {
+        const glm::vec3 d = mesh.positions[3 * i] - glm::vec3(2.0f);
+        rays.push_back({{2.0f, 2.0f, 2.0f}, 0.0f, {d.x, d.y, d.z}, 4.0f});
+    }
+    const Scene scene = single(mesh);
+    check_all_queries(scene, rays);
+    for (const Hit& hit : trace(reference_tree(scene, Layout::wide8, Levels::one), rays))
+        CHECK((hit.primitive == BOXWOOD_NONE || hit.primitive < begin));
+}
+
+TEST_CASE("traversal: the deepest tree fills the stack and no more") {
+    // One triangle splits off at each level, and a ray from the far end goes down the whole chain before it comes back.
+    // 65 triangles make 64 binary nodes, which fill a stack of 64 exactly; 257 one of 256.
+    for (const std::uint32_t triangles : {65u, 257u}) {
+        Mesh mesh;
+        for (std::uint32_t i = 0; i < triangles; ++i) {
+            const auto x = static_cast<float>(i);
+            mesh.positions.insert(mesh.positions.end(), {{x, -1.0f, -1.0f}, {x, 1.0f, -1.0f}, {x, 0.0f, 2.0f}});
+            mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+        }
+        const Scene scene = single(mesh);
+        const TreeImage chain = reference_tree(scene, Layout::binary, Levels::one, Shape::chain);
+        CHECK(chain.bottom_depth == triangles - 1);
+        std::vector<Ray> rays;
+        const auto end = static_cast<float>(triangles);
+        for (int i = 0; i < 40; ++i) {
+            const float z = 0.05f * static_cast<float>(i) - 1.0f;
+            rays.push_back({{-1.0f, 0.0f, z}, 0.0f, {1.0f, 0.0f, 0.0f}, end + 2.0f});
+            rays.push_back({{end, 0.0f, z}, 0.0f, {-1.0f, 0.0f, 0.0f}, end + 2.0f});
+            // Through all boxes, past all triangles: nothing shortens the ray.
+            rays.push_back({{-1.0f, 0.99f, 1.5f}, 0.0f, {1.0f, 0.0f, 0.0f}, end + 2.0f});
+        }
+        check_all_queries(scene, rays, Shape::chain);
+    }
+}
+
+TEST_CASE("traversal: empty trees and no rays") {
+    const std::vector<Ray> ray{{{0, 0, 0}, 0, {1, 0, 0}, 1}};
+    for (const Kind& kind : all_kinds) {
+        const TreeImage empty = reference_tree({}, kind.layout, kind.levels);
+        std::vector<RayStatistics> statistics;
+        const Hit hit = trace(empty, ray, statistics).at(0);
+        CHECK(hit.t == std::numeric_limits<float>::infinity());
+        CHECK(hit.primitive == BOXWOOD_NONE);
+        CHECK(hit.instance == BOXWOOD_NONE);
+        CHECK(statistics.at(0).volumes == 0);
+        CHECK(trace_any(empty, ray).at(0) == 0);
+        Random random(4);
+        const TreeImage tree = reference_tree(single(random_mesh(random, 9, 0.5f)), kind.layout, kind.levels);
+        CHECK(trace(tree, {}).empty());
+        CHECK(trace_any(tree, {}).empty());
+    }
+}
+
+TEST_CASE("traversal: the same for every group size") {
+    Random random(5);
+    const Scene scene = instanced_scene(random, 2, 8, 40);
+    // Not a multiple of any group, and more than one slice.
+    const std::vector<Ray> rays = random_rays(random, scaled_down(777), 2.0f);
+    const Tuning before = test_device().tuning();
+    for (const Kind& kind : all_kinds) {
+        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels);
+        test_device().set_tuning({1, 4, 16});
+        const std::vector<Hit> alone = trace(tree, rays);
+        test_device().set_tuning({64, 128, 1});
+        CHECK(count_different(trace(tree, rays), alone) == 0);
+        test_device().set_tuning(before);
+    }
+}
