@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// boxwood-peers SCENE: Boxwood beside Embree 3. Same triangles, same rays, one process, alternating runs, medians.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "boxwood/build.hpp"
+#include "boxwood/error.hpp"
+#include "boxwood/trace.hpp"
+#include "embree_peer.hpp"
+#include "io/atomic_file.hpp"
+#include "workload.hpp"
+
+namespace boxwood::peers {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Report {
+    Json ratios = Json::object(), ours = Json::object(), embree = Json::object();
+
+    void add(const std::string& key, double our_rate, double their_rate, const char* unit) {
+        ratios[key] = our_rate / their_rate;
+        ours[key] = our_rate;
+        embree[key] = their_rate;
+        std::printf("%-26s %6.2fx   ours %8.2f   Embree %8.2f %s\n", key.c_str(), our_rate / their_rate, our_rate,
+                    their_rate, unit);
+    }
+};
+
+/// Builds by both, alternating. The tree that is left in `peer` is the LOW one.
+void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, int runs, Report& report) {
+    std::vector<double> low, medium, to_volumes, passes, wall;
+    BuildReport built;
+    const auto build_ours = [&] { build(device, flat, {.levels = Levels::one, .layout = Layout::wide8}, &built); };
+    build_ours(); // compiles
+    peer.build(flat.meshes[0], RTC_BUILD_QUALITY_LOW);
+    for (int run = 0; run < runs; ++run) {
+        medium.push_back(peer.build(flat.meshes[0], RTC_BUILD_QUALITY_MEDIUM));
+        low.push_back(peer.build(flat.meshes[0], RTC_BUILD_QUALITY_LOW));
+        build_ours();
+        double ms = 0.0;
+        for (const char* stage : {"bounds", "morton", "sort", "hierarchy", "volumes"})
+            ms += built.profile.stage_ms(stage);
+        to_volumes.push_back(ms);
+        passes.push_back(built.profile.total_ms());
+        wall.push_back(built.total_ms);
+    }
+    const double kilo_triangles = static_cast<double>(flat.triangle_count()) * 1e-3; // per ms: millions per second
+    const auto rate = [&](const std::vector<double>& ms) { return kilo_triangles / median(ms); };
+    report.add("build_low", rate(to_volumes), rate(low), "Mtri/s");
+    report.add("build_medium", rate(to_volumes), rate(medium), "Mtri/s");
+    report.add("ready", rate(passes), rate(low), "Mtri/s");
+    report.add("ready_with_upload", rate(wall), rate(low), "Mtri/s");
+}
+
+/// Prints how many answers agree; a hit agrees when the distances do to 1e-4, or the triangles do.
+void compare(const std::string& name, const std::vector<Hit>& ours, const std::vector<Hit>& theirs) {
+    std::size_t same = 0, hits = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        const bool both = ours[i].primitive != BOXWOOD_NONE && theirs[i].primitive != BOXWOOD_NONE;
+        const bool near = both && std::fabs(ours[i].t - theirs[i].t) <= 1e-4f * theirs[i].t;
+        same += ours[i].primitive == theirs[i].primitive || near;
+        hits += ours[i].primitive != BOXWOOD_NONE;
+    }
+    std::printf("%s: %zu rays, %zu hits, %zu agree with Embree\n", name.c_str(), ours.size(), hits, same);
+}
+
+void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, const Batch& batch, int runs,
+                   Report& report) {
+    const std::size_t count = batch.rays.size();
+    if (count == 0) return;
+    const Buffer<Ray> rays = upload(device, batch.rays, "rays");
+    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
+    const Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, count, "flags");
+    std::vector<Hit> their_hits(count);
+    std::vector<std::uint32_t> their_flags(count);
+    std::vector<double> times[6]; // theirs, ours, ours portable: closest, then any
+    for (int run = -1; run < runs; ++run) {
+        double ms[6];
+        ms[0] = peer.closest_hit(batch.rays, their_hits);
+        ms[3] = peer.any_hit(batch.rays, their_flags);
+        for (const int portable : {0, 1}) {
+            const TraceOptions options{.portable_lanes = portable == 1};
+            ms[1 + portable] = milliseconds([&] { closest_hit(device, tree, rays, hits, options), device.finish(); });
+            ms[4 + portable] = milliseconds([&] { any_hit(device, tree, rays, flags, options), device.finish(); });
+        }
+        if (run < 0) continue; // compiles and warms
+        for (int i = 0; i < 6; ++i) times[i].push_back(ms[i]);
+    }
+    const auto rate = [&](int i) { return static_cast<double>(count) * 1e-3 / median(times[i]); };
+    compare(batch.name, download(device, hits), their_hits);
+    if (batch.name != "shadow") {
+        report.add("closest_" + batch.name, rate(1), rate(0), "Mray/s");
+        report.add("closest_" + batch.name + "_portable", rate(2), rate(0), "Mray/s");
+    }
+    report.add("any_" + batch.name, rate(4), rate(3), "Mray/s");
+    report.add("any_" + batch.name + "_portable", rate(5), rate(3), "Mray/s");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"Boxwood beside Embree 3 on one scene"};
+    std::string name, file, selector;
+    int runs = 5;
+    app.add_option("scene", name, "glTF file or procedural kind")->required();
+    app.add_option("--report", file, "JSON file to write");
+    app.add_option("--runs", runs, "timed runs of each side")->check(CLI::Range(1, 1000));
+    app.add_option("--device", selector, "OpenCL device, by index or name");
+    CLI11_PARSE(app, argc, argv);
+
+    Device device(selector);
+    const Scene flat = load_flat(name);
+    if (flat.instances.empty()) throw InputError(name, "scene", "has no triangles to measure");
+    std::printf("%s: %llu triangles, %s\n", name.c_str(), static_cast<unsigned long long>(flat.triangle_count()),
+                device.info().name.c_str());
+    EmbreePeer peer;
+    Report report;
+    measure_builds(device, flat, peer, runs, report);
+    const Tree tree = build(device, flat, {.levels = Levels::one, .layout = Layout::wide8});
+    for (const Batch& batch : make_batches(device, flat, tree)) measure_batch(device, tree, peer, batch, runs, report);
+
+    if (file.empty()) return 0;
+    const Json json{{"scene", name},       {"triangles", flat.triangle_count()},
+                    {"runs", runs},        {"ratios", report.ratios},
+                    {"ours", report.ours}, {"embree", report.embree}};
+    AtomicFile out(file);
+    out.stream() << json.dump(2) << '\n';
+    out.commit();
+    return 0;
+}
+
+} // namespace
+} // namespace boxwood::peers
+
+int main(int argc, char** argv) {
+    try {
+        return boxwood::peers::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::cerr << "boxwood-peers: " << error.what() << '\n';
+        return 1;
+    }
+}
