@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "boxwood/scene.hpp"
@@ -17,11 +18,15 @@ struct BxwFile {
 /// Version that save_bxw writes and the newest that load_bxw reads.
 inline constexpr std::uint32_t bxw_version = 1;
 
-/// Writes scene geometry and tree as a little-endian container (magic, version, section table, checksum per section),
-/// atomically. Throws InputError when the file cannot be written.
+/// Writes scene geometry and tree as a little-endian container (magic, version, section table, checksum per section;
+/// host/io/bxw_format.hpp has the layout), atomically: on failure nothing is left under `file`. Throws InputError when
+/// scene or tree does not validate, so that no file is written that load_bxw refuses, or when the file cannot be
+/// written. O(bytes); copies no big array.
 void save_bxw(const std::filesystem::path& file, const Scene& scene, const TreeImage& tree);
 
-/// Reads and validates a .bxw file. Throws InputError for a file that is truncated, corrupt, newer or hostile.
+/// Reads a .bxw file and validates its scene and tree. Throws InputError naming the file and the section or element for
+/// a file that is missing, truncated, corrupt, newer or hostile, whatever its counts claim. Each section is read into
+/// its final place: memory is about the file's size. O(bytes).
 BxwFile load_bxw(const std::filesystem::path& file);
 
 /// True when the file starts with the .bxw magic. False for anything else, also for a file that cannot be read.
