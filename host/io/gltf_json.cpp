@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 #include "boxwood/error.hpp"
 #include "io/gltf_document.hpp"
+#include "io/gltf_json_reader.hpp"
 
 namespace boxwood {
 
@@ -16,11 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-// Deeper than any glTF property; later passes over the JSON are recursive.
-constexpr int deepest_nesting = 64;
-
-constexpr std::array sections{"asset",  "accessors", "bufferViews", "buffers", "cameras",
-                              "meshes", "nodes",     "scene",       "scenes",  "extensionsRequired"};
 constexpr std::array neutral_prefixes{"KHR_materials_",   "KHR_texture_",   "KHR_lights_", "KHR_xmp",
                                       "EXT_materials_",   "EXT_texture_",   "EXT_lights_", "MSFT_texture_",
                                       "ADOBE_materials_", "KHR_animation_", "KHR_audio",   "GOOGLE_texture_"};
@@ -31,40 +25,6 @@ bool contains(const List& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-// Decides, key by key while parsing, what is kept: images and the like never take memory.
-class Filter {
-public:
-    explicit Filter(const std::string& file) : file_(file) {}
-
-    bool operator()(int depth, json::parse_event_t event, const json& value) {
-        using Event = json::parse_event_t;
-        if (event == Event::object_start || event == Event::array_start) {
-            if (depth > deepest_nesting) throw InputError(file_, "JSON", "is nested too deeply");
-        } else if (event == Event::key) {
-            return keep(depth, value.get_ref<const std::string&>());
-        }
-        return true;
-    }
-
-private:
-    // Depths of keys: 1 in the root, 3 in an element of a root array, 4 in an object of that element.
-    bool keep(int depth, const std::string& key) {
-        if (depth == 1) {
-            section_ = key;
-            in_extensions_ = false;
-            return contains(sections, key);
-        }
-        if (depth == 3) in_extensions_ = key == "extensions";
-        if (key == "extensions") return section_ == "nodes" && depth == 3;
-        if (depth == 4 && in_extensions_) return key == "EXT_mesh_gpu_instancing";
-        return key != "extras" && !(section_ == "accessors" && (key == "min" || key == "max"));
-    }
-
-    const std::string& file_;
-    std::string section_;
-    bool in_extensions_ = false;
-};
-
 // One JSON object and the way its fields are checked. `Path` makes the element's name, and only when it is needed.
 template <class Path>
 class Fields {
@@ -74,10 +34,9 @@ public:
     }
 
     std::string path() const { return path_(); }
+    std::string member(const char* key) const { return path_().empty() ? key : path_() + "." + key; }
 
-    [[noreturn]] void fail(const char* key, const char* what) const {
-        throw InputError(file_, path_() + "." + key, what);
-    }
+    [[noreturn]] void fail(const char* key, const char* what) const { throw InputError(file_, member(key), what); }
 
     const json* find(const char* key, bool required = false) const {
         const auto found = object_.find(key);
@@ -90,7 +49,7 @@ public:
         const json* value = find(key, required);
         if (value == nullptr) return;
         if (!value->is_number_unsigned() || value->get<std::uint64_t>() > largest) {
-            fail(key, "is not an integer from 0 to the largest that is possible here");
+            fail(key, "is not an integer in the range that is possible here");
         }
     }
     void index(const char* key, bool required = false) const {
@@ -143,7 +102,7 @@ public:
     auto object(const char* key, bool required = false) const {
         static const json empty = json::object();
         const json* value = find(key, required);
-        const auto path = [this, key] { return path_() + "." + key; };
+        const auto path = [this, key] { return member(key); };
         return Fields<decltype(path)>(value != nullptr ? *value : empty, file_, path);
     }
 
@@ -244,7 +203,7 @@ void check_camera(const F& camera) {
 }
 
 void check_asset(const json& root, const std::string& file) {
-    const auto top = [] { return std::string("root"); };
+    const auto top = [] { return std::string(); };
     const Fields fields(root, file, top);
     const auto asset = fields.object("asset", true);
     asset.string("version", true);
@@ -261,7 +220,7 @@ void check_asset(const json& root, const std::string& file) {
 void check_fields(const json& root, const std::string& file) {
     const auto top = [] { return std::string(); };
     check_asset(root, file);
-    Fields(root, file, [] { return std::string("root"); }).index("scene");
+    Fields(root, file, [] { return std::string(); }).index("scene");
     for_each(root, "accessors", file, top, [](const json&, const auto& f) { check_accessor(f); });
     for_each(root, "bufferViews", file, top, [](const json&, const auto& f) { check_buffer_view(f); });
     for_each(root, "buffers", file, top, [](const json&, const auto& f) {
@@ -285,12 +244,9 @@ void check_fields(const json& root, const std::string& file) {
 } // namespace
 
 json parse_gltf_json(std::string_view text, const std::string& file) {
-    json root;
-    try {
-        root = json::parse(text.begin(), text.end(), Filter(file));
-    } catch (const json::exception& error) {
-        throw InputError(file, "JSON", std::string("cannot be parsed (is this a glTF file?): ") + error.what());
-    }
+    GltfJsonReader reader(file);
+    json::sax_parse(text.begin(), text.end(), &reader);
+    json root = reader.take();
     if (!root.is_object()) throw InputError(file, "JSON", "is not an object (is this a glTF file?)");
     check_fields(root, file);
     return root;
