@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 
 #include "boxwood/error.hpp"
@@ -75,6 +76,12 @@ public:
         for (const json& value : map) check_index(value, key);
     }
 
+    void one_of(const char* key, std::initializer_list<json> values) const {
+        const json* value = find(key, true);
+        if (std::find(values.begin(), values.end(), *value) == values.end())
+            fail(key, "is not a value that glTF knows");
+    }
+
     void string(const char* key, bool required = false) const {
         const json* value = find(key, required);
         if (value != nullptr && !value->is_string()) fail(key, "is not a string");
@@ -134,9 +141,9 @@ template <class F>
 void check_accessor(const F& accessor) {
     accessor.index("bufferView");
     accessor.size("byteOffset");
-    accessor.index("componentType", true);
+    accessor.one_of("componentType", {5120, 5121, 5122, 5123, 5125, 5126});
     accessor.size("count", true);
-    accessor.string("type", true);
+    accessor.one_of("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
     accessor.string("name");
     accessor.boolean("normalized");
     if (accessor.find("sparse") == nullptr) return;
@@ -163,11 +170,27 @@ void check_buffer_view(const F& view) {
     }
 }
 
+std::size_t array_size(const json& root, const char* key) {
+    const auto found = root.find(key);
+    return found == root.end() ? 0 : found->size();
+}
+
+// tinygltf follows the indices of every primitive to their buffer view, so that they have to be right even in a mesh
+// that no node shows.
 template <class F>
-void check_primitive(const json& value, const F& primitive) {
+void check_primitive(const json& root, const json& value, const F& primitive) {
     primitive.index_map("attributes", true);
     primitive.index("indices");
     primitive.index("mode");
+    if (const json* indices = primitive.find("indices")) {
+        const auto index = indices->get<std::size_t>();
+        if (index >= array_size(root, "accessors")) primitive.fail("indices", "names an accessor that does not exist");
+        const json& accessor = root["accessors"][index];
+        const auto view = accessor.find("bufferView");
+        if (view == accessor.end() || view->get<std::size_t>() >= array_size(root, "bufferViews")) {
+            primitive.fail("indices", "names an accessor without a bufferView that exists");
+        }
+    }
     const auto targets = value.find("targets");
     if (targets == value.end()) return;
     if (!targets->is_array()) primitive.fail("targets", "is not an array");
@@ -193,12 +216,15 @@ void check_node(const F& node) {
 
 template <class F>
 void check_camera(const F& camera) {
-    camera.string("type", true);
     camera.string("name");
-    for (const char* key : {"perspective", "orthographic"}) {
-        if (camera.find(key) == nullptr) continue;
-        const auto fields = camera.object(key);
-        for (const char* number : {"yfov", "znear", "zfar", "aspectRatio", "xmag", "ymag"}) fields.number(number);
+    camera.one_of("type", {"perspective", "orthographic"});
+    if (*camera.find("type") == "perspective") {
+        const auto fields = camera.object("perspective", true);
+        for (const char* key : {"yfov", "znear"}) fields.number(key, true);
+        for (const char* key : {"zfar", "aspectRatio"}) fields.number(key);
+    } else {
+        const auto fields = camera.object("orthographic", true);
+        for (const char* key : {"xmag", "ymag", "znear", "zfar"}) fields.number(key, true);
     }
 }
 
@@ -231,7 +257,7 @@ void check_fields(const json& root, const std::string& file) {
         f.string("name");
         for_each(
             mesh, "primitives", file, [&f] { return f.path() + "."; },
-            [](const json& value, const auto& primitive) { check_primitive(value, primitive); });
+            [&root](const json& value, const auto& primitive) { check_primitive(root, value, primitive); });
     });
     for_each(root, "nodes", file, top, [](const json&, const auto& f) { check_node(f); });
     for_each(root, "cameras", file, top, [](const json&, const auto& f) { check_camera(f); });
