@@ -3,6 +3,8 @@
 //
 // GROUP_SIZE           work-items per group, 1 or more
 // SCALAR, COMPONENTS   as in primitives/element.h
+// compile: SCALAR=uint COMPONENTS=1
+// compile: SCALAR=uint COMPONENTS=6
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
 #endif

@@ -3,6 +3,10 @@
 //
 // GROUP_SIZE                                 work-items per group, 1 or more
 // SCALAR, COMPONENTS, OP_SUM/OP_MIN/OP_MAX   as in primitives/operator.h
+// compile: SCALAR=int COMPONENTS=1 OP_MIN
+// compile: SCALAR=ulong COMPONENTS=1 OP_MAX
+// compile: SCALAR=float COMPONENTS=4 OP_SUM
+// compile: SCALAR=float COMPONENTS=6 OP_SUM
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
 #endif

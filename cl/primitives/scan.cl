@@ -5,6 +5,9 @@
 // GROUP_SIZE                                 work-items per group, 1 or more
 // SCALAR, COMPONENTS, OP_SUM/OP_MIN/OP_MAX   as in primitives/operator.h, COMPONENTS 1 or 4
 // INCLUSIVE                                  1: element i of the result covers in[0..i]; 0: in[0..i-1]
+// compile: SCALAR=uint COMPONENTS=1 OP_SUM INCLUSIVE=0
+// compile: SCALAR=ulong COMPONENTS=1 OP_MAX INCLUSIVE=1
+// compile: SCALAR=float COMPONENTS=4 OP_MIN INCLUSIVE=0
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
 #endif
