@@ -2,9 +2,11 @@
 // How to cover each subtree by wide nodes at least cost: the dynamic program of Ylitie, Karras and Laine ("Efficient
 // incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1), bottom-up.
 //
-// costs[8 n + i - 1], i = 1..7: least cost of the subtree of inner node n when it may hang from its wide parent as up to
-// i boxes ([8 n + 7] repeats i = 7). All are expected costs per ray that hits n's box, so they are free of scale and
+// costs[8 n + i - 1], i = 1..7: least cost of the subtree of inner node n, no leaf, when it may hang from its wide parent
+// as up to i boxes ([8 n + 7] repeats i = 7). All are expected costs per ray that hits n's box, so they are free of scale and
 // neither overflow nor vanish.
+//
+// A subtree of up to LEAF_SIZE primitives is one leaf: its test costs the same however many of its slots are filled.
 //
 // LEAF_SIZE  most primitives in a leaf
 // NODE_COST  cost of testing one wide node (float)
@@ -50,9 +52,13 @@ inline float2 hit_chances(global const Aabb* parent, global const Aabb* a, globa
     return (float2)(half_area(extent_of(a) / unit), half_area(extent_of(b) / unit)) / whole;
 }
 
+inline bool is_leaf(const Costs* c, uint node, uint count) {
+    return node >= count || range_size(node, c->far_ends) <= LEAF_SIZE;
+}
+
 /// A child's costs, weighted by the chance that a ray that hits the parent hits it.
 inline float8 child_costs(const Costs* c, uint child, float weight, uint count) {
-    return weight * (child >= count ? (float8)(LEAF_COST) : vload8(child, c->costs));
+    return weight * (is_leaf(c, child, count) ? (float8)(LEAF_COST) : vload8(child, c->costs));
 }
 
 /// One step of the search for the best share: the left child gets `s` of the boxes, at cost `left`; lane j - 1 of
@@ -66,6 +72,10 @@ inline void try_share(float left, float8 right, int s, float8* best, int8* share
 
 /// Costs and choices of a node from those of its children. Lane j - 1 of the work is for j boxes.
 inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
+    if (is_leaf(c, node, count)) {
+        c->shares[node] = SHARES_LEAF;
+        return;
+    }
     const float2 weight = hit_chances(c->volumes + node, c->volumes + children.x, c->volumes + children.y);
     const float8 a = child_costs(c, children.x, weight.x, count);
     const float8 b = child_costs(c, children.y, weight.y, count);
@@ -86,10 +96,6 @@ inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
 
     uint word = (uint)chosen[7] << 18;
     float least = NODE_COST + cost[7];
-    if (range_size(node, c->far_ends) <= LEAF_SIZE && LEAF_COST <= least) {
-        least = LEAF_COST;
-        word |= SHARES_LEAF;
-    }
     cost[0] = least;
     for (int j = 2; j <= 7; ++j) {
         if (cost[j - 1] < least) {

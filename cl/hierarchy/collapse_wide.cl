@@ -77,125 +77,154 @@ void level_totals(global const uint* inner_starts, global const uint* leaf_start
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void choose_children(global const uint2* children, global const uint* shares, global const uint* sources,
                      global uint* kids, global uint* inner_counts, global uint* leaf_counts, uint count,
-                     uint level_size) {
-    const uint w = (uint)get_global_id(0);
-    if (w == level_size) inner_counts[w] = leaf_counts[w] = 0; // so that the scans end with the totals
-    if (w >= level_size) return;
-    uint chosen[8];
-    const uint found = choose(children, shares, sources[w], count, chosen);
-    uint leaves = 0;
-    for (uint i = 0; i < 8; ++i) {
-        uint kid = BOXWOOD_NONE;
-        if (i < found) {
-            const bool leaf = is_leaf(shares, chosen[i], count);
-            leaves += leaf ? 1u : 0u;
-            kid = leaf ? chosen[i] | BOXWOOD_LEAF : chosen[i];
+                     uint level_size, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    const uint end = min(begin + slice, level_size);
+    for (uint w = begin; w < end; ++w) {
+        uint chosen[8];
+        const uint found = choose(children, shares, sources[w], count, chosen);
+        uint leaves = 0;
+        for (uint i = 0; i < 8; ++i) {
+            uint kid = BOXWOOD_NONE;
+            if (i < found) {
+                const bool leaf = is_leaf(shares, chosen[i], count);
+                leaves += leaf ? 1u : 0u;
+                kid = leaf ? chosen[i] | BOXWOOD_LEAF : chosen[i];
+            }
+            kids[8 * (size_t)w + i] = kid;
         }
-        kids[8 * (size_t)w + i] = kid;
+        inner_counts[w] = found - leaves;
+        leaf_counts[w] = leaves;
     }
-    inner_counts[w] = found - leaves;
-    leaf_counts[w] = leaves;
+    // One entry more, so that the scans end with the totals.
+    if (begin < level_size && end == level_size) inner_counts[end] = leaf_counts[end] = 0;
 }
 
-/// next_sources[...] = the inner children of this level in order; inner_starts is the exclusive scan of inner_counts.
+/// The children of one level in order: inner_sources is the next level, leaf_sources its leaves. The starts are the
+/// exclusive scans of the counts.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void next_level(global const uint* kids, global const uint* inner_starts, global uint* next_sources, uint level_size) {
-    const uint w = (uint)get_global_id(0);
-    if (w >= level_size) return;
-    uint place = inner_starts[w];
-    for (uint i = 0; i < 8; ++i) {
-        const uint kid = kids[8 * (size_t)w + i];
-        if (kid != BOXWOOD_NONE && !(kid & BOXWOOD_LEAF)) next_sources[place++] = kid;
+void part_children(global const uint* kids, global const uint* inner_starts, global const uint* leaf_starts,
+                   global uint* inner_sources, global uint* leaf_sources, uint level_size, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    const uint end = min(begin + slice, level_size);
+    if (begin >= end) return;
+    uint inner = inner_starts[begin];
+    uint leaf = leaf_starts[begin];
+    for (uint i = 8 * begin; i < 8 * end; ++i) {
+        const uint kid = kids[i];
+        if (kid == BOXWOOD_NONE) continue;
+        if (kid & BOXWOOD_LEAF) leaf_sources[leaf++] = kid & ~BOXWOOD_LEAF;
+        else inner_sources[inner++] = kid;
+    }
+}
+
+/// Writes the wide nodes [first_node, first_node + level_size) of one level. Its inner children are numbered from
+/// first_node + level_size, its triangle blocks from first_leaf.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void write_nodes(global const Aabb* volumes, global const uint* order, global const uint* kids,
+                 global const uint* inner_starts, global const uint* leaf_starts, global Wide8Node* nodes, uint count,
+                 uint first_node, uint first_leaf, uint level_size, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    const uint end = min(begin + slice, level_size);
+    for (uint w = begin; w < end; ++w) {
+        global Wide8Node* node = nodes + first_node + w;
+        uint inner = first_node + level_size + inner_starts[w];
+        uint leaf = first_leaf + leaf_starts[w];
+        uint found = 0;
+        for (uint i = 0; i < 8; ++i) {
+            const uint kid = kids[8 * (size_t)w + i];
+            uint reference = BOXWOOD_NONE;
+            float3 low = (float3)(INFINITY), high = (float3)(-INFINITY);
+            if (kid != BOXWOOD_NONE) {
+                const uint source = kid & ~BOXWOOD_LEAF;
+                ++found;
+                low = vload3(0, volumes[source].min);
+                high = vload3(0, volumes[source].max);
+                if (!(kid & BOXWOOD_LEAF)) reference = inner++;
+                else if (TRIANGLE_LEAVES) reference = BOXWOOD_LEAF | leaf++;
+                else reference = BOXWOOD_LEAF | order[source - count];
+            }
+            node->min_x[i] = low.x;
+            node->max_x[i] = high.x;
+            node->min_y[i] = low.y;
+            node->max_y[i] = high.y;
+            node->min_z[i] = low.z;
+            node->max_z[i] = high.z;
+            node->child[i] = reference;
+        }
+        node->count = found;
+        for (int i = 0; i < 7; ++i) node->reserved[i] = 0;
     }
 }
 
 #if TRIANGLE_LEAVES
+/// The two in ascending order.
+inline void exchange(uint* a, uint* b) {
+    const uint low = min(*a, *b);
+    *b = max(*a, *b);
+    *a = low;
+}
+
+inline float3 corner(global const float* positions, global const uint* triangles, uint primitive, uint k) {
+    return vload3(triangles[3 * (size_t)primitive + k], positions);
+}
+
+/// Four vectors as three rows of four.
+inline void store_rows(float3 p0, float3 p1, float3 p2, float3 p3, global float* x, global float* y, global float* z) {
+    vstore4((float4)(p0.x, p1.x, p2.x, p3.x), 0, x);
+    vstore4((float4)(p0.y, p1.y, p2.y, p3.y), 0, y);
+    vstore4((float4)(p0.z, p1.z, p2.z, p3.z), 0, z);
+}
+
 /// Block of the triangles at positions [range.x, range.y], ascending by primitive; primitives are counted from
 /// `first_triangle`, the start of their mesh.
 inline void write_block(global Triangle4* block, uint2 range, global const uint* order, global const float* positions,
                         global const uint* triangles, uint first_triangle) {
-    uint sorted[4];
     const uint size = range.y - range.x + 1;
-    for (uint i = 0; i < size; ++i) {
-        const uint primitive = order[range.x + i];
-        uint place = i;
-        for (; place > 0 && sorted[place - 1] > primitive; --place) sorted[place] = sorted[place - 1];
-        sorted[place] = primitive;
+    uint p0 = order[range.x];
+    uint p1 = size > 1 ? order[range.x + 1] : BOXWOOD_NONE;
+    uint p2 = size > 2 ? order[range.x + 2] : BOXWOOD_NONE;
+    uint p3 = size > 3 ? order[range.x + 3] : BOXWOOD_NONE;
+    exchange(&p0, &p1);
+    exchange(&p2, &p3);
+    exchange(&p0, &p2);
+    exchange(&p1, &p3);
+    exchange(&p1, &p2);
+
+    const float3 zero = (float3)(0.0f);
+    float3 a0 = zero, a1 = zero, a2 = zero, a3 = zero, b0 = zero, b1 = zero, b2 = zero, b3 = zero, c0 = zero, c1 = zero,
+           c2 = zero, c3 = zero;
+#define LOAD_TRIANGLE(i)                                                                                              \
+    a##i = corner(positions, triangles, p##i, 0);                                                                     \
+    b##i = corner(positions, triangles, p##i, 1) - a##i;                                                              \
+    c##i = corner(positions, triangles, p##i, 2) - a##i
+    LOAD_TRIANGLE(0);
+    if (size > 1) {
+        LOAD_TRIANGLE(1);
     }
-    for (uint i = 0; i < 4; ++i) {
-        float a[3] = {0.0f, 0.0f, 0.0f}, ab[3] = {0.0f, 0.0f, 0.0f}, ac[3] = {0.0f, 0.0f, 0.0f};
-        if (i < size) {
-            global const uint* corner = triangles + 3 * (size_t)sorted[i];
-            for (int k = 0; k < 3; ++k) {
-                a[k] = positions[3 * (size_t)corner[0] + k];
-                ab[k] = positions[3 * (size_t)corner[1] + k] - a[k];
-                ac[k] = positions[3 * (size_t)corner[2] + k] - a[k];
-            }
-        }
-        block->v0_x[i] = a[0];
-        block->v0_y[i] = a[1];
-        block->v0_z[i] = a[2];
-        block->edge1_x[i] = ab[0];
-        block->edge1_y[i] = ab[1];
-        block->edge1_z[i] = ab[2];
-        block->edge2_x[i] = ac[0];
-        block->edge2_y[i] = ac[1];
-        block->edge2_z[i] = ac[2];
-        block->primitive[i] = i < size ? sorted[i] - first_triangle : BOXWOOD_NONE;
+    if (size > 2) {
+        LOAD_TRIANGLE(2);
     }
+    if (size > 3) {
+        LOAD_TRIANGLE(3);
+    }
+    store_rows(a0, a1, a2, a3, block->v0_x, block->v0_y, block->v0_z);
+    store_rows(b0, b1, b2, b3, block->edge1_x, block->edge1_y, block->edge1_z);
+    store_rows(c0, c1, c2, c3, block->edge2_x, block->edge2_y, block->edge2_z);
+    const uint4 primitive = (uint4)(p0, p1, p2, p3);
+    vstore4(primitive == (uint4)(BOXWOOD_NONE) ? primitive : primitive - first_triangle, 0, block->primitive);
 }
-#endif
-
-#if TRIANGLE_LEAVES
-#define LEAF_PARAMETERS                                                                                               \
-    , global const uint *leaf_starts, global const uint *offsets, global const float *positions,                      \
-        global const uint *triangles, global Triangle4 *blocks, uint trees, uint first_leaf
-#else
-#define LEAF_PARAMETERS
-#endif
-
-/// Writes the wide nodes [first_node, first_node + level_size) of one level, and its triangle blocks from first_leaf
-/// on. Inner children are numbered from first_node + level_size.
+/// Writes the triangle blocks [first_leaf, first_leaf + leaves) of one level.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void write_level(global const Aabb* volumes, global const uint* far_ends, global const uint* order,
-                 global const uint* kids, global const uint* inner_starts, global Wide8Node* nodes, uint count,
-                 uint level_size, uint first_node LEAF_PARAMETERS) {
-    const uint w = (uint)get_global_id(0);
-    if (w >= level_size) return;
-    global Wide8Node* node = nodes + first_node + w;
-    uint inner = first_node + level_size + inner_starts[w];
-#if TRIANGLE_LEAVES
-    uint leaf = first_leaf + leaf_starts[w];
-#endif
-    uint found = 0;
-    for (uint i = 0; i < 8; ++i) {
-        const uint kid = kids[8 * (size_t)w + i];
-        uint reference = BOXWOOD_NONE;
-        Aabb box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-        if (kid != BOXWOOD_NONE) {
-            ++found;
-            box = volumes[kid & ~BOXWOOD_LEAF];
-            const uint2 range = range_of(kid & ~BOXWOOD_LEAF, far_ends, count);
-            if (!(kid & BOXWOOD_LEAF)) {
-                reference = inner++;
-            } else {
-#if TRIANGLE_LEAVES
-                const uint first_triangle = offsets[tree_of(offsets, trees, range.x)];
-                write_block(blocks + leaf, range, order, positions, triangles, first_triangle);
-                reference = BOXWOOD_LEAF | leaf++;
-#else
-                reference = BOXWOOD_LEAF | order[range.x];
-#endif
-            }
-        }
-        node->min_x[i] = box.min[0];
-        node->max_x[i] = box.max[0];
-        node->min_y[i] = box.min[1];
-        node->max_y[i] = box.max[1];
-        node->min_z[i] = box.min[2];
-        node->max_z[i] = box.max[2];
-        node->child[i] = reference;
+void write_blocks(global const uint* leaf_sources, global const uint* far_ends, global const uint* order,
+                  global const uint* offsets, global const float* positions, global const uint* triangles,
+                  global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    const uint end = min(begin + slice, leaves);
+    for (uint i = begin; i < end; ++i) {
+        const uint2 range = range_of(leaf_sources[i], far_ends, count);
+        const uint first_triangle = offsets[tree_of(offsets, trees, range.x)];
+        write_block(blocks + first_leaf + i, range, order, positions, triangles, first_triangle);
     }
-    node->count = found;
-    for (int i = 0; i < 7; ++i) node->reserved[i] = 0;
 }
+#endif

@@ -3,7 +3,7 @@
 //
 // Bits [3 (j - 2), 3 (j - 2) + 3), j = 2..8: how many of j boxes the left child gets when the node is shared out over j;
 // 0 where j boxes are no better than j - 1. For j = 8, the node as a wide node of its own, it is never 0.
-// Bit 31 (SHARES_LEAF): the node as one box is best a leaf.
+// SHARES_LEAF instead: the node is a leaf.
 #ifndef BOXWOOD_HIERARCHY_SHARES_H
 #define BOXWOOD_HIERARCHY_SHARES_H
 

@@ -13,9 +13,11 @@ namespace {
 /// Children chosen for the wide nodes of one level, before they are written.
 struct Level {
     std::uint32_t size = 0;
+    std::uint32_t leaves = 0;
     Buffer<std::uint32_t> kids;         ///< 8 per node
     Buffer<std::uint32_t> inner_starts; ///< Exclusive scans of how many inner children and leaves each node has;
     Buffer<std::uint32_t> leaf_starts;  ///< one entry more than nodes, the last is the total.
+    Buffer<std::uint32_t> leaf_sources; ///< The leaves as binary nodes.
 };
 
 struct Collapse {
@@ -63,8 +65,9 @@ Level choose_children(const Collapse& c, BufferView<const std::uint32_t> sources
     level.kids = make_scratch<std::uint32_t>(c.device, 8 * sources.size(), "children of a level");
     level.inner_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "inner children of a level");
     level.leaf_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "leaves of a level");
-    launch(c.device, c.kernel("choose_children"), "choose children", level.size + 1, c.topology.children, c.shares,
-           sources, level.kids, level.inner_starts, level.leaf_starts, c.count, level.size);
+    const Slices slices = cut(c.device, level.size);
+    launch(c.device, c.kernel("choose_children"), "choose children", slices.slices, c.topology.children, c.shares,
+           sources, level.kids, level.inner_starts, level.leaf_starts, c.count, level.size, slices.length);
     exclusive_scan<std::uint32_t>(c.device, level.inner_starts, Operator::sum, level.inner_starts);
     exclusive_scan<std::uint32_t>(c.device, level.leaf_starts, Operator::sum, level.leaf_starts);
     return level;
@@ -77,39 +80,40 @@ cl_uint2 totals(const Collapse& c, const Level& level, BufferView<cl_uint2> plac
     return download<cl_uint2>(c.device, place)[0];
 }
 
-std::vector<Level> choose_levels(const Collapse& c, std::vector<cl_uint2>& sizes) {
+std::vector<Level> choose_levels(const Collapse& c) {
     const Buffer<cl_uint2> place = make_scratch<cl_uint2>(c.device, 1, "level totals");
     std::vector<Level> levels;
     Buffer<std::uint32_t> sources = roots(c);
     while (sources.size() > 0) {
         levels.push_back(choose_children(c, sources));
-        const Level& level = levels.back();
-        sizes.push_back(totals(c, level, place));
-        Buffer<std::uint32_t> next = make_scratch<std::uint32_t>(c.device, sizes.back().s[0], "sources of a level");
-        if (next.size() > 0)
-            launch(c.device, c.kernel("next_level"), "next level", level.size, level.kids, level.inner_starts, next,
-                   level.size);
-        sources = std::move(next);
+        Level& level = levels.back();
+        const cl_uint2 found = totals(c, level, place);
+        level.leaves = found.s[1];
+        level.leaf_sources = make_scratch<std::uint32_t>(c.device, level.leaves, "leaves of a level");
+        sources = make_scratch<std::uint32_t>(c.device, found.s[0], "sources of a level");
+        const Slices slices = cut(c.device, level.size);
+        launch(c.device, c.kernel("part_children"), "part children", slices.slices, level.kids, level.inner_starts,
+               level.leaf_starts, sources, level.leaf_sources, level.size, slices.length);
     }
     return levels;
 }
 
-void write_levels(const Collapse& c, const std::vector<Level>& levels, const std::vector<cl_uint2>& sizes,
-                  const WideLayout& layout) {
+void write_levels(const Collapse& c, const std::vector<Level>& levels, const WideLayout& layout) {
     std::uint32_t first_node = 0, first_leaf = 0;
-    const auto trees = static_cast<std::uint32_t>(c.topology.trees());
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const Level& level = levels[i];
-        if (c.geometry)
-            launch(c.device, c.kernel("write_level"), "wide nodes and leaves", level.size, c.volumes,
-                   c.topology.far_ends, c.topology.order, level.kids, level.inner_starts, layout.nodes, c.count,
-                   level.size, first_node, level.leaf_starts, c.topology.offsets, c.geometry->positions,
-                   c.geometry->triangles, layout.blocks, trees, first_leaf);
-        else
-            launch(c.device, c.kernel("write_level"), "wide nodes", level.size, c.volumes, c.topology.far_ends,
-                   c.topology.order, level.kids, level.inner_starts, layout.nodes, c.count, level.size, first_node);
+    for (const Level& level : levels) {
+        const Slices nodes = cut(c.device, level.size);
+        launch(c.device, c.kernel("write_nodes"), "wide nodes", nodes.slices, c.volumes, c.topology.order, level.kids,
+               level.inner_starts, level.leaf_starts, layout.nodes, c.count, first_node, first_leaf, level.size,
+               nodes.length);
+        if (c.geometry) {
+            const Slices leaves = cut(c.device, level.leaves);
+            launch(c.device, c.kernel("write_blocks"), "triangle blocks", leaves.slices, level.leaf_sources,
+                   c.topology.far_ends, c.topology.order, c.topology.offsets, c.geometry->positions,
+                   c.geometry->triangles, layout.blocks, c.count, static_cast<std::uint32_t>(c.topology.trees()),
+                   first_leaf, level.leaves, leaves.length);
+        }
         first_node += level.size;
-        first_leaf += sizes[i].s[1];
+        first_leaf += level.leaves;
     }
 }
 
@@ -117,20 +121,19 @@ WideLayout collapse(Device& device, const Topology& topology, BufferView<const A
                     const Geometry* geometry) {
     Collapse c{device, topology, volumes, geometry, {}};
     c.shares = choose_shares(c);
-    std::vector<cl_uint2> sizes;
-    const std::vector<Level> levels = choose_levels(c, sizes);
+    const std::vector<Level> levels = choose_levels(c);
     c.shares = {};
 
     std::size_t nodes = 0, leaves = 0;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        nodes += levels[i].size;
-        leaves += sizes[i].s[1];
+    for (const Level& level : levels) {
+        nodes += level.size;
+        leaves += level.leaves;
     }
     WideLayout layout;
     layout.nodes = make_buffer<Wide8Node>(device, nodes, "wide nodes");
     if (geometry) layout.blocks = make_buffer<Triangle4>(device, leaves, "triangle blocks");
     layout.depth = static_cast<std::uint32_t>(levels.size());
-    write_levels(c, levels, sizes, layout);
+    write_levels(c, levels, layout);
     return layout;
 }
 
