@@ -42,7 +42,8 @@ void check_compact(std::size_t size, std::uint32_t percent) {
 
 TEST_CASE_TEMPLATE("compact: every type and size", T, std::int32_t, std::uint32_t, std::uint64_t, float, cl_float4,
                    Aabb) {
-    for (const std::size_t size : boundary_sizes()) check_compact<T>(size, 40);
+    for (const std::size_t size : boundary_sizes())
+        if (size <= 100000) check_compact<T>(size, 40);
 }
 
 TEST_CASE("compact: all, none and few") {

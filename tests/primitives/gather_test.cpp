@@ -35,7 +35,8 @@ void check_gather(std::size_t in_size, std::size_t size) {
 
 TEST_CASE_TEMPLATE("gather: every type and size", T, std::int32_t, std::uint32_t, std::uint64_t, float, cl_float4,
                    Aabb) {
-    for (const std::size_t size : boundary_sizes()) check_gather<T>(777, size);
+    for (const std::size_t size : boundary_sizes())
+        if (size <= 100000) check_gather<T>(777, size);
 }
 
 TEST_CASE("gather: tunings") {

@@ -52,7 +52,7 @@ inline std::vector<std::size_t> boundary_sizes() {
                                    32 * block - 1,
                                    32 * block,
                                    32 * block + 1};
-    if (!small_sizes()) sizes.insert(sizes.end(), {block * block - 1, block * block, block * block + 1, 1300003});
+    if (!small_sizes()) sizes.insert(sizes.end(), {block * block - 1, block * block, block * block + 1});
     return sizes;
 }
 
