@@ -22,11 +22,13 @@ inline float3 background(float up) {
     return mix((float3)(0.045f, 0.05f, 0.06f), (float3)(0.16f, 0.19f, 0.24f), 0.5f + 0.5f * up);
 }
 
-/// Linear colour of a pale matt surface: a light at the eye (`facing` is the cosine towards it) and a sky, brighter
-/// and bluer from above, darker and warmer from below.
-inline float3 shade(float facing, float up) {
-    const float3 sky = mix((float3)(0.10f, 0.085f, 0.07f), (float3)(0.24f, 0.27f, 0.31f), 0.5f + 0.5f * up);
-    return sky + 0.55f * facing;
+/// Linear colour of a pale matt surface: a light at the eye (`facing` is the cosine towards it), a warm one high on the
+/// right that casts no shadow, and a sky, bright and blue from above, dark from below.
+inline float3 shade(float3 normal, float facing) {
+    const float3 sun_direction = (float3)(0.48f, 0.8f, 0.36f); // normalised
+    const float3 sun = fmax(dot(normal, sun_direction), 0.0f) * (float3)(0.50f, 0.46f, 0.40f);
+    const float3 sky = mix((float3)(0.03f, 0.03f, 0.03f), (float3)(0.12f, 0.15f, 0.19f), 0.5f + 0.5f * normal.y);
+    return sky + sun + 0.16f * facing;
 }
 
 /// planes = R, G, B of the shading, linear, in [0, 1].
@@ -41,7 +43,7 @@ film_shading(global const float* positions, global const uint* triangles, global
         float3 colour = background(view.y);
         if (hits[i].primitive != BOXWOOD_NONE) {
             const float3 normal = surface_at(positions, triangles, meshes, instances, rays[i], hits[i]).normal;
-            colour = shade(-dot(normal, view), normal.y);
+            colour = shade(normal, -dot(normal, view));
         }
         store_planes(colour, count, i, planes);
     }

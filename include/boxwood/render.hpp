@@ -35,7 +35,7 @@ struct RenderOptions {
 };
 
 /// One ray per pixel through `tree`, which was built of the scene in `geometry`. The image has the channels R, G, B
-/// (linear shading of the normal under a light at the eye and a sky, the background's gradient where nothing is met)
+/// (linear shading of the normal under fixed lights without shadows, the background's gradient where nothing is met)
 /// and those of options.aovs. Throws InputError for a resolution out of range, CapacityError when it does not fit.
 Image render(Device& device, const Tree& tree, const Geometry& geometry, const Camera& camera,
              const RenderOptions& options = {});

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// boxwood info: what a scene or a .bxw file holds.
+#include <iostream>
+#include <memory>
+
+#include "cli/input.hpp"
+#include "cli/report.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    std::filesystem::path file;
+    bool json = false;
+};
+
+Json cameras_report(const Scene& scene) {
+    Json cameras = Json::array();
+    for (const Camera& camera : scene.cameras)
+        cameras.push_back({{"name", camera.name}, {"kind", camera.perspective ? "perspective" : "orthographic"}});
+    return cameras;
+}
+
+Json tree_report(const TreeImage& tree) {
+    return {{"layout", name(tree.layout)},
+            {"levels", name(tree.levels)},
+            {"bottom_nodes", tree.binary_nodes.size() + tree.wide_nodes.size()},
+            {"top_nodes", tree.binary_top.size() + tree.wide_top.size()},
+            {"leaves", tree.triangles.size() + tree.blocks.size()},
+            {"bottom_depth", tree.bottom_depth},
+            {"top_depth", tree.top_depth}};
+}
+
+void print_scene(const Input& input) {
+    const Scene& scene = input.scene;
+    std::cout << input.file.string() << ": " << (input.tree ? ".bxw file" : "glTF scene") << ", "
+              << grouped(std::filesystem::file_size(input.file)) << " bytes\n"
+              << "  meshes      " << grouped(scene.meshes.size()) << '\n'
+              << "  instances   " << grouped(scene.instances.size()) << '\n'
+              << "  triangles   " << grouped(scene.triangle_count()) << " stored, "
+              << grouped(scene.instanced_triangle_count()) << " as seen\n"
+              << "  vertices    " << grouped(scene.vertex_count()) << '\n';
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        std::cout << "  camera " << i << "    \"" << scene.cameras[i].name << "\", "
+                  << (scene.cameras[i].perspective ? "perspective" : "orthographic") << '\n';
+    const ImportCounts& counts = scene.counts;
+    if (counts.dropped_triangles || counts.dropped_instances || counts.skipped_points_and_lines)
+        std::cout << "  left out    " << grouped(counts.dropped_triangles) << " triangles, "
+                  << grouped(counts.dropped_instances) << " instances, " << grouped(counts.skipped_points_and_lines)
+                  << " primitives of points or lines\n";
+}
+
+void print_tree(const TreeImage& tree) {
+    std::cout << "  tree        " << name(tree.layout) << ", "
+              << (tree.levels == Levels::two ? "two levels" : "one level") << '\n'
+              << "  bottom      " << grouped(tree.binary_nodes.size() + tree.wide_nodes.size()) << " nodes, "
+              << grouped(tree.triangles.size() + tree.blocks.size()) << " leaves, depth " << tree.bottom_depth << '\n';
+    if (tree.levels == Levels::two)
+        std::cout << "  top         " << grouped(tree.binary_top.size() + tree.wide_top.size()) << " nodes, "
+                  << grouped(tree.instances.size()) << " instances, depth " << tree.top_depth << '\n';
+}
+
+void run(const Arguments& arguments) {
+    const Input input = load_input(arguments.file, arguments.common.quiet);
+    if (arguments.json) {
+        Json report = {{"boxwood", BOXWOOD_VERSION}, {"scene", scene_report(input)}};
+        report["cameras"] = cameras_report(input.scene);
+        if (input.tree) report["tree"] = tree_report(*input.tree);
+        std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    } else if (!arguments.common.quiet) {
+        print_scene(input);
+        if (input.tree) print_tree(*input.tree);
+    }
+}
+
+} // namespace
+
+Command add_info(CLI::App& tool) {
+    CLI::App* app = tool.add_subcommand("info", "Check a scene or a .bxw file and say what it holds");
+    const auto arguments = std::make_shared<Arguments>();
+    app->add_option("FILE", arguments->file, "glTF 2.0 scene or .bxw file")->required()->type_name("");
+    app->add_flag("--json", arguments->json, "As JSON, for scripts");
+    add_common(*app, arguments->common);
+    add_example(*app, "  boxwood info forest.bxw --json");
+    return {app, [arguments] { run(*arguments); }};
+}
+
+} // namespace boxwood::cli

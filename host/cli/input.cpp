@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "cli/input.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "boxwood/bxw.hpp"
+#include "boxwood/gltf.hpp"
+#include "boxwood/rays.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+void print_warnings(const Input& input) {
+    constexpr std::size_t most = 5;
+    const std::vector<std::string>& warnings = input.scene.warnings;
+    for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i)
+        std::cerr << "boxwood: warning: " << input.file.string() << ": " << warnings[i] << '\n';
+    if (warnings.size() > most)
+        std::cerr << "boxwood: warning: " << input.file.string() << ": and " << warnings.size() - most
+                  << " more, all in the report\n";
+}
+
+std::string camera_list(const std::vector<Camera>& cameras) {
+    if (cameras.empty()) return "the file has none; leave --camera out to see everything";
+    std::string list = "the file has ";
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        list += (i ? ", " : "") + std::to_string(i) + " \"" + cameras[i].name + "\"";
+    return list;
+}
+
+} // namespace
+
+Input load_input(const std::filesystem::path& file, bool quiet) {
+    Input input{file, {}, {}};
+    if (is_bxw(file)) {
+        BxwFile stored = load_bxw(file);
+        input.scene = std::move(stored.scene);
+        input.tree = std::move(stored.tree);
+    } else {
+        input.scene = load_gltf(file);
+    }
+    if (!quiet) print_warnings(input);
+    return input;
+}
+
+Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) {
+    if (!input.tree) {
+        BuildReport report;
+        Tree tree = build(device, input.scene, choice.options, &report);
+        return {std::move(tree), choice.options, std::move(report)};
+    }
+    if (choice.given())
+        throw UsageError(input.file.string() +
+                         " brings its tree: leave the build options out, or give the scene that it was built from");
+    BuildOptions options;
+    options.layout = input.tree->layout;
+    options.levels = input.tree->levels;
+    return {upload(device, *input.tree), options, std::nullopt};
+}
+
+Camera choose_camera(const Input& input, const std::string& wanted) {
+    const std::vector<Camera>& cameras = input.scene.cameras;
+    if (wanted.empty()) return cameras.empty() ? default_camera(input.scene) : cameras.front();
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        if (cameras[i].name == wanted || std::to_string(i) == wanted) return cameras[i];
+    throw InputError(input.file.string(), "cameras", "no camera \"" + wanted + "\"; " + camera_list(cameras));
+}
+
+} // namespace boxwood::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// From the SCENE argument to a tree on a device.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "boxwood/build.hpp"
+#include "boxwood/scene.hpp"
+#include "boxwood/tree_image.hpp"
+#include "cli/command.hpp"
+
+namespace boxwood::cli {
+
+/// A scene, with its tree when it came from a .bxw file.
+struct Input {
+    std::filesystem::path file;
+    Scene scene;
+    std::optional<TreeImage> tree;
+};
+
+/// Reads a glTF scene or a .bxw file, told apart by their contents, and prints the warnings of the scene on standard
+/// error unless `quiet`. Throws InputError.
+Input load_input(const std::filesystem::path& file, bool quiet);
+
+/// A tree ready for rays, and what building it measured when it was built.
+struct Prepared {
+    Tree tree;
+    BuildOptions options; ///< As asked for, or as the stored tree is (whose Morton codes are not known).
+    std::optional<BuildReport> report;
+};
+
+/// The stored tree of a .bxw file, else one built. Throws UsageError for build options beside a stored tree.
+Prepared prepare(Device& device, const Input& input, const BuildChoice& choice);
+
+/// The camera called `wanted`, or with that index; the first when `wanted` is empty, the default camera when there is
+/// none. Throws InputError listing the cameras.
+Camera choose_camera(const Input& input, const std::string& wanted);
+
+} // namespace boxwood::cli

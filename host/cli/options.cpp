@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Options that several commands share.
+#include <algorithm>
+#include <charconv>
+
+#include "boxwood/device.hpp"
+#include "cli/command.hpp"
+#include "io/atomic_file.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+/// The number that is all of `text`; 0 when it is none.
+std::uint32_t to_number(std::string_view text) {
+    std::uint32_t value = 0;
+    const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return status == std::errc() && rest == text.data() + text.size() ? value : 0;
+}
+
+} // namespace
+
+Device open_device(const Common& common) {
+    try {
+        return Device(common.device);
+    } catch (const DeviceError& error) {
+        throw NoDevice(error.what());
+    }
+}
+
+void add_common(CLI::App& command, Common& common) {
+    command.add_option("--device", common.device,
+                       "Index or part of the name of the OpenCL device (default: BOXWOOD_DEVICE, else the first)");
+    command.add_flag("--quiet", common.quiet, "No progress and no summary; errors only");
+    command.add_flag("--profile", common.profile, "Table of device times by stage and pass");
+}
+
+void add_example(CLI::App& command, const std::string& lines) { command.footer("Example:\n" + lines); }
+
+bool BuildChoice::given() const {
+    return std::any_of(declared.begin(), declared.end(), [](const CLI::Option* option) { return option->count() > 0; });
+}
+
+void add_build_options(CLI::App& command, BuildChoice& choice) {
+    BuildOptions& options = choice.options;
+    choice.declared = {
+        command
+            .add_option_function<std::string>(
+                "--levels", [&](const std::string& word) { options.levels = to_levels(word); },
+                "One tree over everything, a tree per mesh under a tree over instances, or by need (default)")
+            ->check(CLI::IsMember({"one", "two", "auto"})),
+        command
+            .add_option_function<std::string>(
+                "--layout", [&](const std::string& word) { options.layout = to_layout(word); },
+                "Nodes with two children or eight (default: wide8)")
+            ->check(CLI::IsMember({"binary", "wide8"})),
+        command
+            .add_option_function<int>(
+                "--morton", [&](int bits) { options.morton = bits == 63 ? MortonBits::bits63 : MortonBits::bits30; },
+                "Bits of the Morton codes (default: 30)")
+            ->check(CLI::IsMember({30, 63})),
+    };
+}
+
+void add_resolution(CLI::App& command, Resolution& resolution) {
+    command
+        .add_option_function<std::string>(
+            "--resolution",
+            [&](const std::string& text) {
+                const std::size_t cross = std::min(text.find('x'), text.size());
+                const std::uint32_t width = to_number(text.substr(0, cross));
+                const std::uint32_t height = cross < text.size() ? to_number(text.substr(cross + 1)) : 0;
+                constexpr std::uint32_t most = 1u << 16;
+                if (width == 0 || height == 0 || width > most || height > most)
+                    throw CLI::ValidationError("--resolution", "\"" + text + "\" is not WIDTHxHEIGHT, such as " +
+                                                                   "1280x720, each from 1 to " + std::to_string(most));
+                resolution = {width, height};
+            },
+            "Pixels as WIDTHxHEIGHT (default: 1024x1024)")
+        ->type_name("WxH");
+}
+
+void check_output(const std::filesystem::path& file, const std::string& extension) {
+    if (file.empty()) return;
+    if (!extension.empty() && file.extension() != extension)
+        throw UsageError("\"" + file.string() + "\" must end in " + extension);
+    const AtomicFile probe(file);
+}
+
+} // namespace boxwood::cli

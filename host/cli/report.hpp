@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Reports for scripts: JSON with the same keys from every command.
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "boxwood/device.hpp"
+#include "boxwood/profile.hpp"
+#include "cli/input.hpp"
+
+namespace boxwood::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// "boxwood", "device", "scene", "options", "requirements", "passes_ms", "compile_ms", "peak_device_bytes", "quality".
+/// From a stored tree "passes_ms" has only a total of 0, and "quality" only what can be read off the tree.
+/// `query` words, such as "statistics", are added to the requirements.
+Json base_report(const Device& device, const Input& input, const Prepared& prepared,
+                 const std::vector<std::string>& query);
+
+/// Counts of a scene: "file", "meshes", "instances", "triangles", "vertices", "dropped_triangles", ...
+Json scene_report(const Input& input);
+
+/// Writes the report, indented; nothing for an empty path. Throws InputError.
+void save_report(const std::filesystem::path& file, const Json& report);
+
+/// Prints the device times as a table on standard output.
+void print_profile(const Profile& profile);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
+
+} // namespace boxwood::cli
