@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "boxwood/error.hpp"
+#include "boxwood/render.hpp"
+
+using namespace boxwood;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+/// Relative luminance of an sRGB pixel (IEC 61966-2-1).
+double luminance(const std::uint8_t* rgb) {
+    const double weights[] = {0.2126, 0.7152, 0.0722};
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        const double value = rgb[c] / 255.0;
+        sum += weights[c] * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+
+Image costs(const std::vector<std::uint32_t>& volumes) {
+    return {static_cast<std::uint32_t>(volumes.size()), 1, {{"cost.volumes", volumes}}};
+}
+
+} // namespace
+
+TEST_CASE("preview: shading is encoded as sRGB and clamped") {
+    const std::vector<float> values = {
+        0.0f, 1.0f, 0.5f, 0.2158605f, -1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()};
+    const Image image{7, 1, {{"R", values}, {"G", values}, {"B", values}}};
+    const std::vector<std::uint8_t> rgb = shading_preview(image);
+    // By the transfer function 0.5 has the code 187.5 of 255, and 0.2158605 the code 128.0.
+    const std::uint8_t expected[] = {0, 255, 188, 128, 0, 255, 0};
+    REQUIRE(rgb.size() == 21);
+    for (std::size_t i = 0; i < 7; ++i)
+        for (std::size_t c = 0; c < 3; ++c) CHECK(rgb[3 * i + c] == expected[i]);
+    CHECK_THROWS_AS(shading_preview(costs({1})), InputError);
+}
+
+TEST_CASE("preview: the heat map grows lighter with the cost, in equal steps of lightness") {
+    std::vector<std::uint32_t> volumes(256);
+    for (std::uint32_t i = 0; i < 256; ++i) volumes[i] = i;
+    const HeatMap map = cost_preview(costs(volumes));
+    REQUIRE(map.rgb.size() == 3 * 256);
+    CHECK(map.top == 253); // rank 253 of 0 to 255: 99.5 % of the way, rounded down
+    double previous = -1.0;
+    for (std::size_t i = 0; i < 253; ++i) {
+        const double lightness = std::cbrt(luminance(&map.rgb[3 * i]));
+        CHECK(lightness > previous - 0.01); // one code value of rounding in a channel
+        previous = lightness;
+        // Cube root of luminance is lightness to within the weight of the hue: it stays near the straight line.
+        CHECK(std::abs(lightness - (0.12 + 0.84 * static_cast<double>(i) / 253)) < 0.12);
+    }
+}
+
+TEST_CASE("preview: one expensive pixel does not darken the others; no cost at all is dark") {
+    std::vector<std::uint32_t> volumes(1000, 10);
+    volumes[5] = 100000;
+    const HeatMap map = cost_preview(costs(volumes));
+    CHECK(map.top == 10);
+    CHECK(luminance(&map.rgb[0]) > 0.6);
+    const HeatMap none = cost_preview(costs({0, 0}));
+    CHECK(none.top == 0);
+    CHECK(luminance(&none.rgb[0]) < 0.02);
+    CHECK(cost_preview(costs({})).rgb.empty());
+    CHECK_THROWS_AS(cost_preview(Image{}), InputError);
+}
