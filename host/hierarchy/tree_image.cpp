@@ -151,6 +151,22 @@ void check_one_level(const TreeImage& tree, const Scene& scene, const LayoutArra
     check_depth("top_depth", tree.top_depth, 0, file);
 }
 
+/// One level over several instances: their triangles lie one after another in the flattened scene.
+void check_first_triangles(const TreeImage& tree, const Scene& scene, const std::string& file) {
+    const bool needed = tree.levels == Levels::one && scene.instances.size() > 1;
+    const std::size_t wanted = needed ? scene.instances.size() + 1 : 0;
+    if (tree.first_triangles.size() != wanted) {
+        throw InputError(file, "first_triangles", "must have " + std::to_string(wanted) + " elements for this scene");
+    }
+    std::uint64_t first = 0;
+    for (std::size_t i = 0; i < wanted; ++i) {
+        if (tree.first_triangles[i] != first) {
+            throw InputError(file, element("first_triangles", i), "is not where the instance's triangles start");
+        }
+        if (i < scene.instances.size()) first += scene.meshes[scene.instances[i].mesh].triangles.size();
+    }
+}
+
 /// The trees of all meshes that have an instance; one root per mesh, no node shared between meshes.
 template <class LayoutArrays>
 void check_bottom_level(const TreeImage& tree, const Scene& scene, const LayoutArrays& arrays,
@@ -231,6 +247,7 @@ void validate(const TreeImage& tree, const Scene& scene, const std::string& file
                                                   "blocks",        tree.wide_top, "wide_top"};
         check_layout(tree, scene, arrays, file);
     }
+    check_first_triangles(tree, scene, file);
 }
 
 } // namespace boxwood

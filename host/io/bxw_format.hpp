@@ -63,7 +63,7 @@ struct SectionKind {
     std::uint64_t element_size;
 };
 
-inline constexpr std::array<SectionKind, 11> section_kinds = {{
+inline constexpr std::array<SectionKind, 12> section_kinds = {{
     {"scene", 1},                      // see bxw_scene.hpp
     {"positions", sizeof(glm::vec3)},  // of all meshes, in mesh order
     {"triangles", sizeof(glm::uvec3)}, // of all meshes, indices within the mesh
@@ -75,6 +75,7 @@ inline constexpr std::array<SectionKind, 11> section_kinds = {{
     {"binary_top", sizeof(BinaryNode)},
     {"wide_top", sizeof(Wide8Node)},
     {"instances", sizeof(InstanceRecord)},
+    {"first_triangles", sizeof(std::uint32_t)},
 }};
 
 /// Running XXH64.

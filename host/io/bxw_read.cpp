@@ -157,6 +157,7 @@ TreeImage read_tree(SectionReader& in, const std::string& file) {
     tree.binary_top = in.all<BinaryNode>("binary_top");
     tree.wide_top = in.all<Wide8Node>("wide_top");
     tree.instances = in.all<InstanceRecord>("instances");
+    tree.first_triangles = in.all<std::uint32_t>("first_triangles");
     return tree;
 }
 

@@ -67,7 +67,8 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
                                                               one_part(tree.blocks),
                                                               one_part(tree.binary_top),
                                                               one_part(tree.wide_top),
-                                                              one_part(tree.instances)};
+                                                              one_part(tree.instances),
+                                                              one_part(tree.first_triangles)};
     const std::vector<SectionEntry> table = table_of(sections);
     Header header{magic, bxw_version, static_cast<std::uint32_t>(table.size()), table.back().offset + table.back().size,
                   0};

@@ -225,6 +225,19 @@ TEST_CASE("a tree that leaves out primitives or instances is refused") {
     CHECK(binary([](TreeImage& t) { t.binary_top[0] = t.binary_top[1]; }) == "binary_top");
 }
 
+TEST_CASE("one level over several instances must say where each one's triangles start") {
+    const auto one = [](auto&& change) { return refused_at(Layout::wide8, Levels::one, change); };
+    CHECK(one([](TreeImage& t) { t.first_triangles.clear(); }) == "first_triangles");
+    CHECK(one([](TreeImage& t) { t.first_triangles.push_back(39); }) == "first_triangles");
+    CHECK(one([](TreeImage& t) { t.first_triangles[0] = 1; }) == "first_triangles[0]");
+    CHECK(one([](TreeImage& t) { t.first_triangles[2] = 37; }) == "first_triangles[2]");
+    CHECK(one([](TreeImage& t) { t.first_triangles[3] = 40; }) == "first_triangles[3]");
+    CHECK(wide([](TreeImage& t) { t.first_triangles = {0, 1, 38, 39}; }) == "first_triangles"); // two levels
+    auto [scene, tree] = chain(3);                                                              // one instance
+    tree.first_triangles = {0, 4};
+    CHECK_THROWS_AS(validate(tree, scene, "file"), InputError);
+}
+
 TEST_CASE("an instance record must agree with the scene") {
     CHECK(wide([](TreeImage& t) { t.instances.pop_back(); }) == "instances");
     CHECK(wide([](TreeImage& t) { t.instances[1].mesh = 0; }) == "instances[1]");

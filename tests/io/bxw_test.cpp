@@ -97,11 +97,11 @@ TEST_CASE("the file on disk has the documented layout") {
     CHECK(bytes.substr(0, 8) == "\x89"
                                 "BXW\r\n\x1a\n");
     CHECK(bytes.substr(8, 4) == std::string("\x01\0\0\0", 4));  // version 1, little-endian
-    CHECK(bytes.substr(12, 4) == std::string("\x0b\0\0\0", 4)); // eleven sections
+    CHECK(bytes.substr(12, 4) == std::string("\x0c\0\0\0", 4)); // twelve sections
     CHECK(std::string(bytes.data() + 32) == "scene");
-    // 32 bytes of header and 11 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    // 32 bytes of header and 12 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
     const auto table = table_of(bytes);
-    CHECK(table[0].offset == 560);
+    CHECK(table[0].offset == 608);
     CHECK(table[1].size == 42 * 12);
     float x = 0;
     std::memcpy(&x, bytes.data() + table[1].offset + 12, sizeof x);

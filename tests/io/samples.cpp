@@ -157,6 +157,13 @@ void build(TreeImage& tree, const Scene& scene, std::vector<Node>& nodes, std::v
             const auto part = triangles_of(scene.meshes[instance.mesh], instance.transform);
             all.insert(all.end(), part.begin(), part.end());
         }
+        if (scene.instances.size() > 1) {
+            tree.first_triangles = {0};
+            for (const Instance& instance : scene.instances) {
+                const std::size_t count = scene.meshes[instance.mesh].triangles.size();
+                tree.first_triangles.push_back(tree.first_triangles.back() + static_cast<std::uint32_t>(count));
+            }
+        }
         if (!all.empty()) tree.bottom_depth = append_tree<Node>(nodes, append_leaves(leaves, all));
         return;
     }
@@ -237,7 +244,8 @@ bool same(const TreeImage& a, const TreeImage& b) {
            same_bytes(a.triangles, b.triangles) && same_bytes(a.wide_nodes, b.wide_nodes) &&
            same_bytes(a.blocks, b.blocks) && same_bytes(a.binary_top, b.binary_top) &&
            same_bytes(a.wide_top, b.wide_top) && same_bytes(a.instances, b.instances) &&
-           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
+           same_bytes(a.first_triangles, b.first_triangles) && a.bottom_depth == b.bottom_depth &&
+           a.top_depth == b.top_depth;
 }
 
 TemporaryFolder::TemporaryFolder() {
