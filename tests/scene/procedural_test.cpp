@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/procedural.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "boxwood/error.hpp"
+#include "scene/random.hpp"
+
+TEST_SUITE_BEGIN("scene");
+
+using namespace boxwood;
+
+namespace {
+
+// FNV-1a over everything that has geometry.
+std::uint64_t digest(const Scene& scene) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    const auto add = [&hash](const void* data, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i)
+            hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+    };
+    for (const Mesh& mesh : scene.meshes) {
+        add(mesh.positions.data(), mesh.positions.size() * sizeof(glm::vec3));
+        add(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+    }
+    for (const Instance& instance : scene.instances) {
+        add(&instance.mesh, sizeof instance.mesh);
+        add(&instance.transform, sizeof instance.transform);
+    }
+    return hash;
+}
+
+// Six times the volume enclosed by a closed mesh whose faces look outwards (divergence theorem).
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        sum += glm::dot(glm::dvec3(mesh.positions[t.x]),
+                        glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z])));
+    }
+    return sum / 6.0;
+}
+
+// Every directed edge has its opposite as often as itself: closed, and turned the same way throughout.
+bool is_closed(const Mesh& mesh) {
+    std::map<std::pair<unsigned, unsigned>, int> edges;
+    for (const glm::uvec3& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            ++edges[{t[i], t[(i + 1) % 3]}];
+            --edges[{t[(i + 1) % 3], t[i]}];
+        }
+    }
+    for (const auto& [edge, balance] : edges) {
+        if (balance != 0) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("every kind is valid, has a camera, and depends on nothing but its options") {
+    for (const ProceduralKind& kind : procedural_kinds()) {
+        CAPTURE(kind.name);
+        CHECK(!kind.description.empty());
+        const Scene scene = make_procedural(kind.name);
+        CHECK_NOTHROW(validate(scene, kind.name));
+        CHECK(scene.cameras.size() == 1);
+        CHECK(scene.triangle_count() > 0);
+        CHECK(digest(scene) == digest(make_procedural(kind.name)));
+        const bool seeded = kind.name == "random" || kind.name == "terrain" || kind.name == "forest";
+        CHECK((digest(scene) != digest(make_procedural(kind.name, {0, 0, 2}))) == seeded);
+    }
+    CHECK(procedural_kinds().size() == 6);
+}
+
+TEST_CASE("triangle counts are reached from below as closely as the shape allows") {
+    // 1 is below every shape's least; 40,000 lies between two sizes of each.
+    const auto count = [](const char* kind, std::uint64_t wanted) {
+        return make_procedural(kind, {wanted}).triangle_count();
+    };
+    CHECK(count("cornell", 1) == 32);
+    CHECK(count("cornell", 40'000) == 32 * 35 * 35);
+    CHECK(count("random", 1) == 1);
+    CHECK(count("random", 40'001) == 40'001);
+    CHECK(count("terrain", 1) == 2);
+    CHECK(count("terrain", 40'500) == 2 * 142 * 142);
+    CHECK(count("sphere", 1) == 8);
+    CHECK(count("sphere", 40'000) == 8 * 70 * 70);
+    CHECK(count("forest", 1) == 18 * 4 + 2);
+    CHECK(count("forest", 40'000) == 18 * 4 * 555 + 2);
+    CHECK(count("menger", 1) == 12);
+    CHECK(count("menger", 143) == 12);
+    CHECK(count("menger", 144) == 144);
+    CHECK(count("menger", 40'000) == 4 * 8000 + 8 * 512);
+}
+
+TEST_CASE("the sphere is closed, outward and shares every vertex") {
+    for (const std::uint64_t f : {1, 2, 3, 10, 64}) {
+        CAPTURE(f);
+        const Scene scene = make_procedural("sphere", {8 * f * f});
+        const Mesh& mesh = scene.meshes.at(0);
+        CHECK(mesh.triangles.size() == 8 * f * f);
+        CHECK(mesh.positions.size() == 4 * f * f + 2); // Euler: V = 2 + F / 2
+        CHECK(is_closed(mesh));
+        for (const glm::vec3& p : mesh.positions) CHECK(std::abs(glm::length(glm::dvec3(p)) - 1.0) < 0x1p-22);
+        if (f == 64) CHECK(volume(mesh) == doctest::Approx(4.18879).epsilon(0.001));
+        if (f == 1) CHECK(volume(mesh) == doctest::Approx(4.0 / 3.0).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("the sponge encloses (20/27)^level of its cube and nothing inside") {
+    double cube = 8.0;
+    for (const std::uint64_t triangles : {12, 144, 2112, 36096}) {
+        CAPTURE(triangles);
+        const Scene scene = make_procedural("menger", {triangles});
+        const Mesh& mesh = scene.meshes.at(0);
+        CHECK(mesh.triangles.size() == triangles);
+        CHECK(is_closed(mesh));
+        CHECK(volume(mesh) == doctest::Approx(cube).epsilon(1e-5));
+        cube *= 20.0 / 27.0;
+    }
+}
+
+TEST_CASE("random triangles lie in the unit cube") {
+    for (const std::uint64_t triangles : {1, 7, 8, 63, 64, 4096}) {
+        const Scene scene = make_procedural("random", {triangles});
+        for (const glm::vec3& p : scene.meshes[0].positions) {
+            CHECK((p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x <= 1 && p.y <= 1 && p.z <= 1));
+        }
+    }
+}
+
+TEST_CASE("the terrain is one sheet that faces up") {
+    const Scene scene = make_procedural("terrain", {5'000});
+    const Mesh& mesh = scene.meshes[0];
+    double area = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[t.x]);
+        const double up = glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a).y;
+        CHECK(up > 0);
+        area += 0.5 * up;
+    }
+    CHECK(area == doctest::Approx(4.0).epsilon(1e-6)); // the projection covers [-1, 1]^2 once
+}
+
+TEST_CASE("the cornell box has its closed form") {
+    const Scene scene = make_procedural("cornell");
+    CHECK(scene.meshes.size() == 8);
+    CHECK(scene.instances.size() == 8);
+    // A block without its bottom: the volume of the prism, for the bottom lies in the plane y = -1.
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.name != "short block") continue;
+        Mesh lifted = mesh;
+        for (glm::vec3& p : lifted.positions) p.y += 1; // now the missing bottom contributes nothing
+        CHECK(volume(lifted) == doctest::Approx(0.5625 * 0.5625 * 0.5625).epsilon(1e-6));
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        for (const glm::vec3& p : mesh.positions)
+            CHECK((std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && std::abs(p.z) <= 1));
+    }
+}
+
+TEST_CASE("the forest has the instances it was asked for, standing on its ground") {
+    // 1: the ground alone; 2: one tree; 82 fills a square of 9 x 9 and 83 starts the next.
+    for (const std::uint64_t instances : {1, 2, 82, 83, 5000}) {
+        CAPTURE(instances);
+        const Scene scene = make_procedural("forest", {0, instances});
+        CHECK_NOTHROW(validate(scene, "forest"));
+        REQUIRE(scene.instances.size() == instances);
+        const float half = scene.meshes[0].positions[2].x;
+        std::set<std::uint32_t> kinds;
+        for (const Instance& instance : scene.instances) {
+            kinds.insert(instance.mesh);
+            CHECK(std::abs(instance.transform[3].x) <= half);
+            CHECK(std::abs(instance.transform[3].z) <= half);
+            const glm::dmat3 linear(instance.transform);
+            CHECK(std::abs(glm::dot(linear[0], linear[2])) < 1e-6); // turned and scaled, never sheared
+            CHECK(glm::determinant(linear) > 0);
+        }
+        if (instances == 5000) CHECK(kinds.size() == 4);
+    }
+}
+
+TEST_CASE("splitmix64 gives its published sequence") {
+    Random random(1234567); // reference values of the algorithm for this seed
+    CHECK(random.bits() == 6457827717110365317u);
+    CHECK(random.bits() == 3203168211198807973u);
+    CHECK(random.bits() == 9817491932198370423u);
+}
+
+TEST_CASE("an unknown kind or an endless count is refused") {
+    CHECK_THROWS_WITH_AS(make_procedural("bunny"),
+                         doctest::Contains("cornell, random, terrain, sphere, forest, menger"), InputError);
+    CHECK_THROWS_AS(make_procedural("random", {std::uint64_t{1} << 31}), InputError);
+    CHECK_THROWS_AS(make_procedural("forest", {0, std::uint64_t{1} << 31}), InputError);
+}
+
+TEST_SUITE_END();
