@@ -2,6 +2,7 @@
 // Rays through the pixels of a camera.
 //
 // GROUP_SIZE  work-items per work-group.
+// compile:
 #include "runtime/numerics.h"
 #include "shared/camera.h"
 #include "shared/ray.h"

@@ -5,6 +5,7 @@
 // barriers: work-items share nothing.
 //
 // GROUP_SIZE  work-items per work-group.
+// compile:
 #include "render/surface.h"
 
 #ifndef GROUP_SIZE

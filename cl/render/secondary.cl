@@ -2,6 +2,7 @@
 // Rays that start where other rays hit: cosine-distributed ones and segments to a light.
 //
 // GROUP_SIZE  work-items per work-group.
+// compile:
 #include "render/random.h"
 #include "render/surface.h"
 
