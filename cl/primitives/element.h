@@ -30,19 +30,14 @@ typedef JOIN(SCALAR, 4) Element;
 #define LOAD_ELEMENT(in, i) vload4(i, in)
 #define STORE_ELEMENT(value, out, i) vstore4(value, i, out)
 #elif COMPONENTS == 6
-typedef struct {
-    JOIN(SCALAR, 4) head;
-    JOIN(SCALAR, 2) tail;
-} Element;
+// In a vector of eight whose last two lanes are never stored: a struct would be passed through memory.
+typedef JOIN(SCALAR, 8) Element;
 static inline Element load_six(global const SCALAR* in, size_t i) {
-    Element e;
-    e.head = vload4(0, in + 6 * i);
-    e.tail = vload2(0, in + 6 * i + 4);
-    return e;
+    return (Element)(vload4(0, in + 6 * i), vload2(0, in + 6 * i + 4), (SCALAR)0, (SCALAR)0);
 }
 static inline void store_six(Element e, global SCALAR* out, size_t i) {
-    vstore4(e.head, 0, out + 6 * i);
-    vstore2(e.tail, 0, out + 6 * i + 4);
+    vstore4(e.lo, 0, out + 6 * i);
+    vstore2(e.s45, 0, out + 6 * i + 4);
 }
 #define LOAD_ELEMENT(in, i) load_six(in, i)
 #define STORE_ELEMENT(value, out, i) store_six(value, out, i)

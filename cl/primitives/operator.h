@@ -41,17 +41,12 @@ typedef JOIN(SCALAR, 16) Scalar16;
 #if COMPONENTS == 6
 
 static inline Element neutral(void) {
-    Element e;
-    e.head = (float4)(INFINITY, INFINITY, INFINITY, -INFINITY);
-    e.tail = (float2)(-INFINITY);
-    return e;
+    return (Element)(INFINITY, INFINITY, INFINITY, -INFINITY, -INFINITY, -INFINITY, 0.0f, 0.0f);
 }
 
 static inline Element combine(Element a, Element b) {
-    Element e;
-    e.head = (float4)(SMALLER(a.head.xyz, b.head.xyz), LARGER(a.head.w, b.head.w));
-    e.tail = LARGER(a.tail, b.tail);
-    return e;
+    const Element low = SMALLER(a, b), high = LARGER(a, b);
+    return (Element)(low.s012, high.s3, high.hi);
 }
 
 // Eight boxes are three vectors of 16. With the sign of every maximum flipped, one minimum serves all lanes.
@@ -64,10 +59,7 @@ static inline Element combine(Element a, Element b) {
 static inline float16 flip(float16 lanes, int16 mask) { return as_float16(as_int16(lanes) ^ mask); }
 
 static inline Element element_of_lanes(const float* lanes) {
-    Element e;
-    e.head = vload4(0, lanes);
-    e.tail = vload2(0, lanes + 4);
-    return e;
+    return (Element)(vload4(0, lanes), vload2(0, lanes + 4), 0.0f, 0.0f);
 }
 
 /// The hull of the `rows` x ROW boxes at `in`, rows > 0: slot k of a row joins slot k of the next row, then the eight

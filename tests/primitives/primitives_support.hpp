@@ -24,8 +24,12 @@ private:
     Tuning previous_;
 };
 
-/// The device's own tuning, groups that divide nothing, and groups like a GPU's with slices as short as they get.
-inline std::vector<Tuning> tunings() { return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}}; }
+/// The device's own tuning, groups that divide nothing, and groups like a GPU's with slices as short as they get (one
+/// of each kind under a checker).
+inline std::vector<Tuning> tunings() {
+    if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
+    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}};
+}
 
 /// Elements in a block of the folds (cl/primitives/operator.h).
 inline constexpr std::size_t block = 1024;
@@ -33,27 +37,28 @@ inline constexpr std::size_t block = 1024;
 /// Around the boundaries of: nothing, one row of 64 scalars, a group of 64, the shortest slice (256 elements), one
 /// block, several blocks, 32 slices of one block, two levels of blocks.
 inline std::vector<std::size_t> boundary_sizes() {
-    std::vector<std::size_t> sizes{0,
-                                   1,
-                                   2,
-                                   15,
-                                   16,
-                                   63,
-                                   64,
-                                   65,
-                                   255,
-                                   256,
-                                   257,
-                                   block - 1,
-                                   block,
-                                   1025,
-                                   2 * block,
-                                   5001,
-                                   32 * block - 1,
-                                   32 * block,
-                                   32 * block + 1};
-    if (!small_sizes()) sizes.insert(sizes.end(), {block * block - 1, block * block, block * block + 1});
-    return sizes;
+    if (small_sizes()) return {0, 1, 65, block - 1, block + 1};
+    return std::vector<std::size_t>{0,
+                                    1,
+                                    15,
+                                    16,
+                                    63,
+                                    64,
+                                    65,
+                                    255,
+                                    256,
+                                    257,
+                                    block - 1,
+                                    block,
+                                    block + 1,
+                                    2 * block,
+                                    5001, //
+                                    32 * block - 1,
+                                    32 * block,
+                                    32 * block + 1,
+                                    block * block - 1,
+                                    block * block,
+                                    block * block + 1};
 }
 
 template <class T>

@@ -51,7 +51,7 @@ Offsets random_offsets(std::size_t count, std::uint64_t salt) {
     Offsets offsets{random.below(3)};
     const std::uint32_t longest[] = {1, 2, 9, 200, 3000, 60000};
     while (true) {
-        const std::uint32_t next = offsets.back() + random.below(longest[random.below(small_sizes() ? 5 : 6)]);
+        const std::uint32_t next = offsets.back() + random.below(longest[random.below(6)]);
         if (next > count) return offsets;
         offsets.push_back(next);
     }
@@ -61,7 +61,7 @@ Offsets random_offsets(std::size_t count, std::uint64_t salt) {
 
 TEST_CASE_TEMPLATE("segmented_reduce: segments of random lengths", T, std::int32_t, std::uint32_t, std::uint64_t, float,
                    cl_float4, Aabb) {
-    const std::size_t size = small_sizes() ? 9001 : 400001;
+    const std::size_t size = small_sizes() ? 2101 : 400001;
     for (const Operator op : operators<T>()) check_segments<T>(size, random_offsets(size, 31), op);
 }
 
@@ -83,6 +83,7 @@ TEST_CASE("segmented_reduce: segments at the borders of blocks") {
         offsets_of({2 * b}, b - 1)}; // blocks before the first segment
     for (const Offsets& offsets : cases) {
         check_segments<float>(offsets.back(), offsets, Operator::sum);
+        if (small_sizes()) continue;
         check_segments<Aabb>(offsets.back(), offsets, Operator::sum);
         check_segments<std::uint32_t>(offsets.back() + 3 * b + 5, offsets, Operator::sum); // elements after the last
     }
@@ -96,7 +97,7 @@ TEST_CASE("segmented_reduce: heads of more than one block of blocks") {
 }
 
 TEST_CASE_TEMPLATE("segmented_reduce: the tuning does not change a bit", T, float, Aabb) {
-    const std::size_t size = small_sizes() ? 9001 : 150001;
+    const std::size_t size = small_sizes() ? 2101 : 150001;
     const std::vector<T> values = random_values<T>(size, 5);
     for (const std::uint64_t salt : {1, 2, 3}) {
         const Offsets offsets = random_offsets(size, salt);
