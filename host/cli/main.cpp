@@ -54,6 +54,8 @@ ExitCode guarded(const Work& work) {
 ExitCode fail_parse(const CLI::App& tool, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return static_cast<ExitCode>(tool.exit(error));
     const auto parsed = tool.get_subcommands();
+    if (const auto words = tool.remaining(); parsed.empty() && !words.empty() && !words.front().starts_with('-'))
+        return fail(usage, "there is no command \"" + words.front() + "\" (see boxwood --help)");
     const std::string command = parsed.empty() ? "" : " " + parsed.front()->get_name();
     return fail(usage, std::string(error.what()) + " (see boxwood" + command + " --help)");
 }

@@ -47,9 +47,12 @@ Command add_scene(CLI::App& tool) {
     }
     app->add_option("KIND", arguments->kind, descriptions)->required()->check(CLI::IsMember(kinds))->type_name("");
     app->add_option("-o,--output", arguments->output, "Binary glTF file to write (.glb)")->required();
-    app->add_option("--triangles", arguments->options.triangles, "Wanted number of stored triangles");
-    app->add_option("--instances", arguments->options.instances, "Wanted number of instances (forest)");
-    app->add_option("--seed", arguments->options.seed, "Seed of all that is random (default: 1)");
+    app->add_option("--triangles", arguments->options.triangles, "Wanted number of stored triangles")
+        ->check(CLI::NonNegativeNumber);
+    app->add_option("--instances", arguments->options.instances, "Wanted number of instances (forest)")
+        ->check(CLI::NonNegativeNumber);
+    app->add_option("--seed", arguments->options.seed, "Seed of all that is random (default: 1)")
+        ->check(CLI::NonNegativeNumber);
     add_common(*app, arguments->common);
     add_example(*app, "  boxwood scene forest --instances 1000 -o forest.glb");
     return {app, [arguments] { run(*arguments); }};

@@ -213,7 +213,7 @@ Command add_trace(CLI::App& tool) {
                     "Name or index of the camera (default: the first, else a view of "
                     "everything)");
     add_resolution(*app, arguments->resolution);
-    app->add_option("--seed", arguments->seed, "Seed of diffuse rays (default: 1)");
+    app->add_option("--seed", arguments->seed, "Seed of diffuse rays (default: 1)")->check(CLI::NonNegativeNumber);
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");
     add_common(*app, arguments->common);

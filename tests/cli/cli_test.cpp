@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+#include "support.hpp"
+
+using namespace boxwood::test;
+using Json = nlohmann::json;
+
+TEST_SUITE_BEGIN("cli");
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A failure as the tool promises it: this code, one line that starts with the tool's name and holds `word`, nothing
+/// on standard output.
+void check_failure(const Run& run, int code, const std::string& word) {
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    CHECK(run.err.starts_with("boxwood: "));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.err.ends_with('\n'));
+    CHECK(run.err.find(word) != std::string::npos);
+    CHECK(run.out.empty());
+}
+
+/// The smallest scene with several instances.
+void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
+
+} // namespace
+
+TEST_CASE("cli: help on the tool and every command, with an example") {
+    const Tool tool;
+    const Run all = tool.succeed("--help");
+    CHECK(tool.succeed("--version").out.starts_with("boxwood "));
+    for (const std::string command : {"devices", "scene", "build", "info", "trace", "render"}) {
+        CAPTURE(command);
+        CHECK(all.out.find(command) != std::string::npos);
+        const Run help = tool.succeed(command + " --help");
+        CHECK(help.out.find("Example:\n  boxwood " + command) != std::string::npos);
+        CHECK(help.err.empty());
+    }
+    CHECK(tool.succeed("devices").out.starts_with("* 0"));
+}
+
+TEST_CASE("cli: wrong usage is code 2 and one line that says what is right") {
+    const Tool tool;
+    make_forest(tool);
+    check_failure(tool.run(""), 2, "--help");
+    check_failure(tool.run("polish x.glb"), 2, "polish");
+    check_failure(tool.run("build"), 2, "SCENE");
+    check_failure(tool.run("build forest.glb"), 2, "--output");
+    check_failure(tool.run("build forest.glb -o x.bxw --frobnicate"), 2, "--frobnicate");
+    check_failure(tool.run("build forest.glb -o x.tree"), 2, ".bxw");
+    check_failure(tool.run("build forest.glb -o x.bxw --layout wide4"), 2, "wide8");
+    check_failure(tool.run("build forest.glb -o x.bxw --levels three"), 2, "auto");
+    check_failure(tool.run("build forest.glb -o x.bxw --morton 31"), 2, "63");
+    check_failure(tool.run("scene teapot -o x.glb"), 2, "menger");
+    check_failure(tool.run("scene sphere -o x.gltf"), 2, ".glb");
+    check_failure(tool.run("scene sphere -o x.glb --triangles -5"), 2, "--triangles");
+    check_failure(tool.run("render forest.glb -o x.png"), 2, ".exr");
+    check_failure(tool.run("render forest.glb -o x.exr --aov albedo"), 2, "normal");
+    check_failure(tool.run("trace forest.glb --rays cosmic"), 2, "diffuse");
+    for (const std::string size :
+         {"640", "640x", "x480", "0x5", "640x480x3", "-1x5", "1e3x5", "99999999999x1", "\"\""}) {
+        CAPTURE(size);
+        check_failure(tool.run("render forest.glb -o x.exr --resolution " + size), 2, "WIDTHxHEIGHT");
+    }
+    CHECK(tool.files() == Names{"forest.glb"});
+}
+
+TEST_CASE("cli: bad input is code 3, names the file, and leaves nothing behind") {
+    const Tool tool;
+    make_forest(tool);
+    tool.succeed("build forest.glb -o forest.bxw");
+    tool.write("empty.glb", "");
+    tool.write("text.gltf", "not a scene");
+    tool.write("cut.glb", tool.contents("forest.glb").substr(0, 3000));
+    tool.write("cut.bxw", tool.contents("forest.bxw").substr(0, 3000));
+    std::string flipped = tool.contents("forest.bxw");
+    flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 4);
+    tool.write("flipped.bxw", flipped);
+    tool.write("draco.gltf", R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})");
+    const Names before = tool.files();
+    for (const std::string file : {"empty.glb", "text.gltf", "cut.glb", "cut.bxw", "flipped.bxw", "missing.glb", "."}) {
+        CAPTURE(file);
+        check_failure(tool.run("info " + file), 3, file);
+        check_failure(tool.run("build " + file + " -o x.bxw --report x.json"), 3, file);
+        check_failure(tool.run("trace " + file + " --report x.json"), 3, file);
+        check_failure(tool.run("render " + file + " -o x.exr --report x.json"), 3, file);
+    }
+    check_failure(tool.run("info draco.gltf"), 3, "KHR_draco_mesh_compression");
+    check_failure(tool.run("render forest.glb -o x.exr --camera Gina"), 3, "0 \"");
+    check_failure(tool.run("trace forest.bxw --camera 7"), 3, "0 \"");
+    CHECK(tool.files() == before);
+}
+
+TEST_CASE("cli: an output that cannot be written is found before the work") {
+    const Tool tool;
+    make_forest(tool);
+    check_failure(tool.run("build forest.glb -o nowhere/x.bxw"), 3, "nowhere");
+    check_failure(tool.run("build missing.glb -o nowhere/x.bxw"), 3, "nowhere"); // before the scene is read
+    check_failure(tool.run("build forest.glb -o x.bxw --report nowhere/x.json"), 3, "nowhere");
+    check_failure(tool.run("trace forest.glb --report nowhere/x.json"), 3, "nowhere");
+    check_failure(tool.run("render forest.glb -o nowhere/x.exr"), 3, "nowhere");
+    check_failure(tool.run("scene sphere -o nowhere/x.glb"), 3, "nowhere");
+    CHECK(tool.files() == Names{"forest.glb"});
+}
+
+TEST_CASE("cli: no usable device is code 4") {
+    const Tool tool;
+    make_forest(tool);
+    check_failure(tool.run("build forest.glb -o x.bxw --device abacus"), 4, "abacus");
+    check_failure(tool.run("devices --device 99"), 4, "99");
+    check_failure(tool.run("trace forest.glb", "BOXWOOD_DEVICE=abacus"), 4, "abacus");
+    check_failure(tool.run("devices", "OCL_ICD_VENDORS=/nonexistent"), 4, "no OpenCL device");
+    CHECK(tool.files() == Names{"forest.glb"});
+}
+
+TEST_CASE("cli: build options beside a stored tree are refused") {
+    const Tool tool;
+    make_forest(tool);
+    tool.succeed("build forest.glb -o forest.bxw");
+    check_failure(tool.run("trace forest.bxw --layout binary"), 2, "forest.bxw");
+    check_failure(tool.run("render forest.bxw -o x.exr --levels one"), 2, "forest.bxw");
+    CHECK(tool.files() == Names{"forest.bxw", "forest.glb"});
+}
+
+TEST_CASE("cli: nothing but the summary is printed in a pipe, and nothing when quiet") {
+    const Tool tool;
+    make_forest(tool);
+    const Run loud = tool.succeed("build forest.glb -o a.bxw");
+    CHECK(loud.err.empty());
+    CHECK(std::count(loud.out.begin(), loud.out.end(), '\n') == 1);
+    for (const std::string command :
+         {"scene sphere -o s.glb", "build forest.glb -o a.bxw", "trace a.bxw --resolution 8x8",
+          "render a.bxw -o a.exr --resolution 8x8", "info a.bxw", "devices"}) {
+        CAPTURE(command);
+        const Run quiet = tool.succeed(command + " --quiet");
+        CHECK(quiet.out.empty());
+        CHECK(quiet.err.empty());
+    }
+    const Run profiled = tool.succeed("build forest.glb -o a.bxw --quiet --profile");
+    for (const std::string word : {"stage", "morton", "radix sort", "top_level", "total"})
+        CHECK(profiled.out.find(word) != std::string::npos);
+}
+
+TEST_CASE("cli: a process killed while it writes leaves no file under the final name") {
+    const Tool tool;
+    tool.succeed("scene random --triangles 2000 -o random.glb");
+    const std::string old = "older contents";
+    for (const std::string arguments : {"scene random --triangles 2000 -o x.glb", "build random.glb -o x.bxw",
+                                        "render random.glb -o x.exr --resolution 200x200"}) {
+        CAPTURE(arguments);
+        const std::string output = arguments.substr(arguments.find("x."));
+        // Once in peace, so that the compiler's cache is filled and the limit meets nothing but the output.
+        tool.succeed(arguments);
+        std::filesystem::remove(tool.file(output));
+        // The system kills the process when a file passes 8 KiB; every output here is larger.
+        const Run killed = tool.run(arguments, "ulimit -c 0; ulimit -f 16;");
+        CHECK(killed.code > 128);
+        CHECK_FALSE(std::filesystem::exists(tool.file(output)));
+        // With the signal ignored it is a failed write: an error, no file, and an older one untouched.
+        tool.write(output, old);
+        check_failure(tool.run(arguments, "trap '' XFSZ; ulimit -f 16;"), 3, output.substr(0, 2));
+        CHECK(tool.contents(output) == old);
+    }
+}
+
+TEST_CASE("cli: outputs replace older ones, and names may have spaces") {
+    const Tool tool;
+    make_forest(tool);
+    tool.write("my tree.bxw", "older");
+    tool.succeed("build forest.glb -o 'my tree.bxw'");
+    CHECK(tool.succeed("info 'my tree.bxw'").out.find(".bxw file") != std::string::npos);
+    CHECK(tool.files() == Names{"forest.glb", "my tree.bxw"});
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// What scripts rely on: report keys, and equal results from a scene and from its .bxw file.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+
+using namespace boxwood::test;
+using Json = nlohmann::json;
+
+TEST_SUITE_BEGIN("cli");
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
+
+Json report(const Tool& tool, const std::string& name) { return Json::parse(tool.contents(name)); }
+
+void check_keys(const Json& object, const Names& keys) {
+    for (const std::string& key : keys) {
+        CAPTURE(key);
+        CHECK(object.contains(key));
+    }
+}
+
+void check_base(const Json& json) {
+    check_keys(json, {"boxwood", "device", "scene", "options", "requirements", "passes_ms", "compile_ms",
+                      "peak_device_bytes", "quality"});
+    check_keys(json["device"], {"platform", "name", "driver"});
+    check_keys(json["scene"], {"meshes", "instances", "triangles", "vertices", "dropped_triangles"});
+    CHECK(json["peak_device_bytes"] > 0);
+}
+
+} // namespace
+
+TEST_CASE("report: the keys of every command") {
+    const Tool tool;
+    make_forest(tool);
+    tool.succeed("build forest.glb -o forest.bxw --report build.json");
+    const Json build = report(tool, "build.json");
+    check_base(build);
+    check_keys(build["passes_ms"],
+               {"bounds", "morton", "sort", "hierarchy", "volumes", "collapse", "top_level", "total"});
+    check_keys(build["quality"], {"sah", "sum_volume", "sum_area", "max_depth", "nodes"});
+    CHECK(build["requirements"] == Json{"two-levels"});
+    CHECK(build["options"] == Json{{"levels", "auto"}, {"layout", "wide8"}, {"morton", 30}});
+    CHECK(build["quality"]["sah"] > 0.0);
+
+    for (const std::string file : {"forest.glb", "forest.bxw"}) {
+        CAPTURE(file);
+        tool.succeed("trace " + file + " --resolution 32x16 --report trace.json");
+        const Json trace = report(tool, "trace.json");
+        check_base(trace);
+        check_keys(trace["trace"], {"rays", "hits", "mrays_per_s", "nodes_per_ray", "primitives_per_ray"});
+        CHECK(trace["trace"]["rays"] == 512);
+        CHECK(trace["trace"]["hits"] > 0);
+        CHECK(trace["trace"]["nodes_per_ray"] > 0.0);
+        CHECK(trace["requirements"] == Json{"two-levels", "statistics"});
+
+        tool.succeed("render " + file + " -o x.exr --resolution 32x16 --aov cost,depth --report render.json");
+        const Json render = report(tool, "render.json");
+        check_base(render);
+        CHECK(render["options"]["aovs"] == Json{"cost", "depth"});
+        CHECK(render["requirements"] == Json{"two-levels", "statistics"});
+    }
+    tool.succeed("render forest.glb -o x.exr --resolution 32x16 --levels one --report render.json");
+    CHECK(report(tool, "render.json")["requirements"] == Json{"instance-lookup"});
+}
+
+TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
+    const Tool tool;
+    make_forest(tool);
+    tool.succeed("build forest.glb -o forest.bxw --layout binary");
+    Json scene = Json::parse(tool.succeed("info forest.glb --json").out);
+    Json file = Json::parse(tool.succeed("info forest.bxw --json").out);
+    CHECK_FALSE(scene.contains("tree"));
+    CHECK(file["tree"]["layout"] == "binary");
+    CHECK(file["tree"]["levels"] == "two");
+    scene["scene"].erase("file");
+    file["scene"].erase("file");
+    CHECK(scene["scene"] == file["scene"]);
+    CHECK(scene["cameras"] == file["cameras"]);
+}
+
+TEST_CASE("report: a scene and its .bxw file give the same hits and the same picture") {
+    const Tool tool;
+    make_forest(tool);
+    for (const std::string options :
+         {"--layout wide8 --levels two", "--layout binary --levels one", "--layout wide8 --levels one --morton 63"}) {
+        CAPTURE(options);
+        tool.succeed("build forest.glb -o forest.bxw " + options);
+        int kind = 0;
+        for (const std::string rays : {"primary", "diffuse", "shadow"}) {
+            CAPTURE(rays);
+            const std::string trace = " --resolution 64x64 --seed 5 --rays " + rays;
+            tool.succeed("trace forest.glb --report a.json " + options + trace);
+            tool.succeed("trace forest.bxw --report b.json" + trace);
+            const Json from_scene = report(tool, "a.json")["trace"], from_file = report(tool, "b.json")["trace"];
+            for (const std::string key : {"checksum", "rays", "hits", "nodes_per_ray", "primitives_per_ray"})
+                CHECK(from_scene[key] == from_file[key]);
+            CHECK(from_scene["hits"] > 0);
+            if (kind == 0) CHECK(from_scene["rays"] == 4096);
+            ++kind;
+        }
+        tool.succeed("render forest.glb -o a.exr --aov depth,cost --resolution 64x64 " + options);
+        tool.succeed("render forest.bxw -o b.exr --aov depth,cost --resolution 64x64");
+        CHECK(tool.contents("a.exr") == tool.contents("b.exr"));
+        CHECK(tool.contents("a.png") == tool.contents("b.png"));
+        CHECK(tool.contents("a.exr").starts_with("\x76\x2f\x31\x01"));
+        CHECK(tool.contents("a.png").starts_with("\x89PNG"));
+    }
+}
+
+TEST_CASE("report: an empty scene builds, traces and renders") {
+    const Tool tool;
+    tool.write("empty.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
+    for (const std::string levels : {"one", "two"}) {
+        tool.succeed("build empty.gltf -o empty.bxw --report build.json --levels " + levels);
+        CHECK(report(tool, "build.json")["scene"]["triangles"] == 0);
+        tool.succeed("trace empty.bxw --rays diffuse --resolution 8x8 --report trace.json");
+        CHECK(report(tool, "trace.json")["trace"]["rays"] == 0);
+        tool.succeed("render empty.bxw -o empty.exr --resolution 8x8");
+        CHECK_FALSE(tool.contents("empty.png").empty());
+    }
+}
