@@ -120,6 +120,7 @@ GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const
     document.file = std::move(file);
     nlohmann::json root = parse_gltf_json(container.json, document.file);
     check_required_extensions(root, document.file);
+    check_gltf_fields(root, document.file);
     load_buffers(document, root, container.binary, folder);
     document.model = make_model(std::move(root), document.file);
     return document;

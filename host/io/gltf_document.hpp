@@ -44,12 +44,16 @@ Scene load_gltf_memory(std::span<const std::byte> bytes, std::string file, const
 std::vector<std::byte> read_regular_file(const std::filesystem::path& path, const std::string& name,
                                          const std::string& where);
 
-/// Parses glTF JSON, without what Boxwood never reads (images, materials, animations, extras, foreign extensions), and
-/// checks the JSON type and range of every field it does read. Throws InputError.
+/// Parses glTF JSON, without what Boxwood never reads (images, materials, animations, extras, foreign extensions).
+/// Throws InputError when it is no JSON object.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
 /// Throws InputError naming the first required extension that Boxwood does not support and that may change geometry.
 void check_required_extensions(const nlohmann::json& root, const std::string& file);
+
+/// Checks the JSON type and range of every field that Boxwood or tinygltf reads. Comes after check_required_extensions,
+/// because a file may lack what an extension replaces. Throws InputError naming the field.
+void check_gltf_fields(const nlohmann::json& root, const std::string& file);
 
 /// Puts the buffers that `root` describes into `document`. `binary_chunk` is the GLB's own, or empty. Throws InputError.
 void load_buffers(GltfDocument& document, const nlohmann::json& root, std::span<const std::byte> binary_chunk,

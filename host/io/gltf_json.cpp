@@ -243,7 +243,9 @@ void check_asset(const json& root, const std::string& file) {
     }
 }
 
-void check_fields(const json& root, const std::string& file) {
+} // namespace
+
+void check_gltf_fields(const json& root, const std::string& file) {
     const auto top = [] { return std::string(); };
     check_asset(root, file);
     Fields(root, file, [] { return std::string(); }).index("scene");
@@ -267,14 +269,11 @@ void check_fields(const json& root, const std::string& file) {
     });
 }
 
-} // namespace
-
 json parse_gltf_json(std::string_view text, const std::string& file) {
     GltfJsonReader reader(file);
     json::sax_parse(text.begin(), text.end(), &reader);
     json root = reader.take();
     if (!root.is_object()) throw InputError(file, "JSON", "is not an object (is this a glTF file?)");
-    check_fields(root, file);
     return root;
 }
 

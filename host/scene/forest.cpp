@@ -104,7 +104,8 @@ Instance place_tree(Random& random, glm::vec2 cell) {
 
 Scene make_forest(const ProceduralOptions& options) {
     const std::uint64_t trees = (options.instances != 0 ? options.instances : 1'001) - 1;
-    const std::uint64_t quarters = options.triangles > 2 ? (options.triangles - 2) / 72 : 2;
+    const std::uint64_t quarters =
+        options.triangles != 0 ? (std::max<std::uint64_t>(2, options.triangles) - 2) / 72 : 2;
     const auto round = circle(static_cast<std::uint32_t>(std::max<std::uint64_t>(1, quarters)));
     std::uint64_t rows = floor_sqrt(trees);
     if (rows * rows < trees) ++rows;

@@ -84,12 +84,12 @@ TEST_CASE("nodes that are no tree are refused") {
         return fixture.fault();
     };
     const auto parent_of = [](std::vector<int> children) { return json{{"children", children}}; };
-    CHECK(fault({parent_of({0})}, {0}) == "nodes[0]");
+    CHECK(fault(json::array({parent_of({0})}), {0}) == "nodes[0]");
     CHECK(fault({parent_of({1}), parent_of({2}), parent_of({0})}, {0}) == "nodes[0]");
     CHECK(fault({parent_of({}), parent_of({2}), parent_of({1})}, {0}) == "nodes[1]"); // a cycle beside the scene
     CHECK(fault({parent_of({2}), parent_of({2}), parent_of({})}, {0, 1}) == "nodes[1].children[0]");
     CHECK(fault({parent_of({1, 1}), parent_of({})}, {0}) == "nodes[0].children[1]");
-    CHECK(fault({parent_of({5})}, {0}) == "nodes[0].children[0]");
+    CHECK(fault(json::array({parent_of({5})}), {0}) == "nodes[0].children[0]");
     CHECK(fault({{{"mesh", 1}}}, {0}) == "nodes[0].mesh");
     CHECK(fault({{{"camera", 0}}}, {0}) == "nodes[0].camera");
     CHECK(fault({{{"matrix", {1, 2, 3}}}}, {0}) == "nodes[0].matrix");
