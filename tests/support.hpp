@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <vector>
 
@@ -49,6 +50,12 @@ private:
     std::size_t size_;
     Buffer<T> buffer_;
 };
+
+/// The same bits in both.
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
 
 /// Small deterministic generator (splitmix64) for test inputs.
 class Random {

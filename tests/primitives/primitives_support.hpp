@@ -1,35 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the tests of this layer share: other tunings for a while, sizes around boundaries, inputs by type.
+// What the tests of this layer share: sizes around boundaries, inputs by type.
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
-#include "boxwood/device.hpp"
 #include "shared/aabb.h"
 #include "support.hpp"
+#include "tuning.hpp"
 
 namespace boxwood::test {
-
-/// Replaces the tuning of the device under test until the end of the scope.
-class TuningScope {
-public:
-    explicit TuningScope(const Tuning& tuning) : previous_(test_device().tuning()) { test_device().set_tuning(tuning); }
-    ~TuningScope() { test_device().set_tuning(previous_); }
-    TuningScope(const TuningScope&) = delete;
-    TuningScope& operator=(const TuningScope&) = delete;
-
-private:
-    Tuning previous_;
-};
-
-/// The device's own tuning, groups that divide nothing, and groups like a GPU's with slices as short as they get (one
-/// of each kind under a checker).
-inline std::vector<Tuning> tunings() {
-    if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
-    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}};
-}
 
 /// Elements in a block of the folds (cl/primitives/operator.h).
 inline constexpr std::size_t block = 1024;
@@ -95,12 +75,6 @@ std::vector<T> random_values(std::size_t count, std::uint64_t salt) {
     std::vector<T> values(count);
     for (T& value : values) value = Make<T>::value(random);
     return values;
-}
-
-/// The same bits in both.
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 } // namespace boxwood::test

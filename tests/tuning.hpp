@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Other ways to cut the work for a while: results must not depend on them.
+#pragma once
+
+#include <vector>
+
+#include "boxwood/device.hpp"
+#include "support.hpp"
+
+namespace boxwood::test {
+
+/// Replaces the tuning of the device under test until the end of the scope.
+class TuningScope {
+public:
+    explicit TuningScope(const Tuning& tuning) : previous_(test_device().tuning()) { test_device().set_tuning(tuning); }
+    ~TuningScope() { test_device().set_tuning(previous_); }
+    TuningScope(const TuningScope&) = delete;
+    TuningScope& operator=(const TuningScope&) = delete;
+
+private:
+    Tuning previous_;
+};
+
+/// The device's own tuning, groups that divide nothing, and groups like a GPU's with slices as short as they get.
+inline std::vector<Tuning> tunings() { return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}}; }
+
+} // namespace boxwood::test
