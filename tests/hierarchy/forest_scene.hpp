@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Forests over small meshes, on the device and on the host, for the tests of layouts.
+#pragma once
+
+#include <vector>
+
+#include "boxwood/geometry.hpp"
+#include "boxwood/scene.hpp"
+#include "hierarchy/forest.hpp"
+#include "oracles/tree_checker.hpp"
+
+namespace boxwood::test {
+
+/// Triangles with corners near random places; `spread` parts the places, `size` the corners.
+inline Mesh random_mesh(std::size_t triangles, float spread, float size, std::uint64_t salt) {
+    Random random(salt);
+    Mesh mesh;
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+        const glm::vec3 place(random.uniform(-spread, spread), random.uniform(-spread, spread),
+                              random.uniform(-spread, spread));
+        for (int k = 0; k < 3; ++k)
+            mesh.positions.push_back(place + glm::vec3(random.uniform(-size, size), random.uniform(-size, size),
+                                                       random.uniform(-size, size)));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+}
+
+/// One identity instance of each mesh.
+inline Scene scene_of(std::vector<Mesh> meshes) {
+    Scene scene;
+    scene.meshes = std::move(meshes);
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) scene.instances.push_back({"", i, glm::mat4(1.0f)});
+    return scene;
+}
+
+inline Aabb box_of(const Mesh& mesh, const glm::uvec3& triangle) {
+    const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
+    const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+}
+
+/// A tree per mesh of a scene.
+struct BuiltForest {
+    Geometry geometry;
+    Forest forest;
+    HostTopology topology;
+    std::vector<Aabb> volumes;
+};
+
+inline BuiltForest build_forest_of(Device& device, const Scene& scene) {
+    std::vector<Aabb> boxes;
+    std::vector<std::uint32_t> offsets{0};
+    for (const Mesh& mesh : scene.meshes) {
+        for (const glm::uvec3& triangle : mesh.triangles) boxes.push_back(box_of(mesh, triangle));
+        offsets.push_back(static_cast<std::uint32_t>(boxes.size()));
+    }
+    BuiltForest built;
+    built.geometry = upload(device, scene);
+    built.forest = build_forest(device, upload(device, boxes, "boxes"), offsets, MortonBits::bits30);
+    built.topology = to_host(device, built.forest.topology);
+    built.volumes = download(device, built.forest.volumes);
+    return built;
+}
+
+} // namespace boxwood::test

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "oracles/wide_cost.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace boxwood::test {
+
+namespace {
+
+struct Search {
+    const HostTopology& topology;
+    const std::vector<Aabb>& volumes;
+    CostModel model;
+    std::map<std::uint32_t, double> known; ///< Cost of a binary node as one box, times its area.
+
+    double area(std::uint32_t node) const { return area_of(volumes[node]); }
+    bool is_primitive(std::uint32_t node) const { return node >= topology.size(); }
+
+    /// The least sum over the covers that keep the nodes of `chosen` and part any of `open` further.
+    double best_cover(std::vector<std::uint32_t> open, std::size_t chosen, double cost) {
+        if (open.empty()) return cost;
+        const std::uint32_t node = open.back();
+        open.pop_back();
+        double best = best_cover(open, chosen + 1, cost + as_box(node));
+        if (!is_primitive(node) && chosen + open.size() + 2 <= 8) {
+            open.push_back(topology.children[node].s[0]);
+            open.push_back(topology.children[node].s[1]);
+            best = std::min(best, best_cover(open, chosen, cost));
+        }
+        return best;
+    }
+
+    /// `node` as a wide node, times its area.
+    double as_node(std::uint32_t node) {
+        return model.node * area(node) +
+               best_cover({topology.children[node].s[0], topology.children[node].s[1]}, 0, 0.0);
+    }
+
+    double as_box(std::uint32_t node) {
+        if (const auto found = known.find(node); found != known.end()) return found->second;
+        const Span span = span_of(topology, node);
+        double best = std::numeric_limits<double>::infinity();
+        if (span.last - span.first < model.leaf_size) best = model.leaf * area(node);
+        if (!is_primitive(node)) best = std::min(best, as_node(node));
+        return known[node] = best;
+    }
+};
+
+} // namespace
+
+double area_of(const Aabb& box) {
+    const double x = double(box.max[0]) - box.min[0], y = double(box.max[1]) - box.min[1];
+    const double z = double(box.max[2]) - box.min[2];
+    return 2.0 * (x * y + y * z + z * x);
+}
+
+double least_cost(const HostTopology& topology, const std::vector<Aabb>& volumes, std::uint32_t tree, CostModel model) {
+    Search search{topology, volumes, model, {}};
+    const std::uint32_t root = topology.root(tree);
+    // The root is a wide node whatever it costs; over few primitives it may hold a single leaf.
+    const Span span = span_of(topology, root);
+    double best = std::numeric_limits<double>::infinity();
+    if (span.last - span.first < model.leaf_size) best = (model.node + model.leaf) * search.area(root);
+    if (!search.is_primitive(root)) best = std::min(best, search.as_node(root));
+    return best / search.area(root);
+}
+
+} // namespace boxwood::test
