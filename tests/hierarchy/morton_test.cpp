@@ -189,6 +189,18 @@ TEST_CASE("morton: scaled by a power of two, the same bits") {
     }
 }
 
+TEST_CASE("morton: subnormal coordinates keep their order") {
+    std::vector<Aabb> points;
+    for (int i = 1; i <= 100; ++i) {
+        const float x = std::ldexp(static_cast<float>(i), -149);
+        points.push_back({{x, 0, 0}, {x, 0, 0}});
+    }
+    for (const MortonBits bits : both) {
+        const Keys got = run_one(points, hull(points), bits);
+        CHECK(std::is_sorted(got.keys.begin(), got.keys.end()));
+    }
+}
+
 TEST_CASE("morton: in a forest each tree has its own cube, and stands above the code") {
     std::vector<std::uint32_t> offsets{0};
     std::vector<Aabb> boxes, bounds;

@@ -2,7 +2,6 @@
 #include "oracles/wide_cost.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 namespace boxwood::test {
@@ -16,7 +15,10 @@ struct Search {
     std::map<std::uint32_t, double> known; ///< Cost of a binary node as one box, times its area.
 
     double area(std::uint32_t node) const { return area_of(volumes[node]); }
-    bool is_primitive(std::uint32_t node) const { return node >= topology.size(); }
+    bool is_leaf(std::uint32_t node) const {
+        const Span span = span_of(topology, node);
+        return span.last - span.first < model.leaf_size;
+    }
 
     /// The least sum over the covers that keep the nodes of `chosen` and part any of `open` further.
     double best_cover(std::vector<std::uint32_t> open, std::size_t chosen, double cost) {
@@ -24,7 +26,7 @@ struct Search {
         const std::uint32_t node = open.back();
         open.pop_back();
         double best = best_cover(open, chosen + 1, cost + as_box(node));
-        if (!is_primitive(node) && chosen + open.size() + 2 <= 8) {
+        if (!is_leaf(node) && chosen + open.size() + 2 <= 8) {
             open.push_back(topology.children[node].s[0]);
             open.push_back(topology.children[node].s[1]);
             best = std::min(best, best_cover(open, chosen, cost));
@@ -40,10 +42,7 @@ struct Search {
 
     double as_box(std::uint32_t node) {
         if (const auto found = known.find(node); found != known.end()) return found->second;
-        const Span span = span_of(topology, node);
-        double best = std::numeric_limits<double>::infinity();
-        if (span.last - span.first < model.leaf_size) best = model.leaf * area(node);
-        if (!is_primitive(node)) best = std::min(best, as_node(node));
+        const double best = is_leaf(node) ? model.leaf * area(node) : as_node(node);
         return known[node] = best;
     }
 };
@@ -59,11 +58,8 @@ double area_of(const Aabb& box) {
 double least_cost(const HostTopology& topology, const std::vector<Aabb>& volumes, std::uint32_t tree, CostModel model) {
     Search search{topology, volumes, model, {}};
     const std::uint32_t root = topology.root(tree);
-    // The root is a wide node whatever it costs; over few primitives it may hold a single leaf.
-    const Span span = span_of(topology, root);
-    double best = std::numeric_limits<double>::infinity();
-    if (span.last - span.first < model.leaf_size) best = (model.node + model.leaf) * search.area(root);
-    if (!search.is_primitive(root)) best = std::min(best, search.as_node(root));
+    // The root is a wide node whatever it costs.
+    const double best = search.is_leaf(root) ? (model.node + model.leaf) * search.area(root) : search.as_node(root);
     return best / search.area(root);
 }
 
