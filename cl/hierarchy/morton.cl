@@ -41,6 +41,7 @@ inline KEY spread(uint bits) {
 /// a point, so that all lands in cell 0). The product rounds alike at every power-of-two scale.
 typedef struct Grid {
     float3 low;
+    float zoom; ///< A power of two that makes the cube large enough for cells per length to be a float.
     float scale;
 } Grid;
 
@@ -48,17 +49,19 @@ inline Grid grid_of(global const Aabb* bounds) {
     const float3 low = vload3(0, bounds->min);
     const float3 extent = vload3(0, bounds->max) - low;
     const float side = max(max(extent.x, extent.y), extent.z);
-    const Grid grid = {low, side > 0.0f ? (float)(1 << AXIS_BITS) / side : 0.0f};
+    const float zoom = side < 0x1p-90f ? 0x1p90f : 1.0f;
+    const Grid grid = {low, zoom, side > 0.0f ? (float)(1 << AXIS_BITS) / (side * zoom) : 0.0f};
     return grid;
 }
 
 inline KEY code(global const Aabb* box, Grid grid) {
     const float3 center = 0.5f * vload3(0, box->min) + 0.5f * vload3(0, box->max);
-    const float3 place = (center - grid.low) * grid.scale;
-    const float last = (float)((1 << AXIS_BITS) - 1);
-    const KEY x = spread((uint)min(place.x, last));
-    const KEY y = spread((uint)min(place.y, last));
-    const KEY z = spread((uint)min(place.z, last));
+    // Halves of subnormal numbers round, so a centre may lie below the corner.
+    const float3 place =
+        clamp((center - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
+    const KEY x = spread((uint)place.x);
+    const KEY y = spread((uint)place.y);
+    const KEY z = spread((uint)place.z);
     return (x << 2) | (y << 1) | z;
 }
 
