@@ -25,7 +25,7 @@ typedef struct Wide8Node {
     float min_z[8];
     float max_z[8];
     uint child[8];
-    uint count; ///< 0..8
+    uint count; ///< 1..8; 0 only in nodes that nothing refers to
     uint reserved[7]; ///< Zero.
 } Wide8Node;
 BOXWOOD_SHARED_SIZE(Wide8Node, 256)
