@@ -13,7 +13,7 @@
 #if FLATTENED
 
 /// The instance that triangle `primitive` of the flattened scene belongs to: the last that starts at or before it.
-inline uint instance_of(uint primitive, global const uint* first_triangles, uint instance_count) {
+INLINE uint instance_of(uint primitive, global const uint* first_triangles, uint instance_count) {
     uint low = 0;
     uint high = instance_count;
     while (high - low > 1) {
@@ -38,15 +38,20 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
     global const Ray* rays, uint ray_count, uint slice, global Hit* hits, global RayStatistics* statistics) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
+    const Arrays arrays = {nodes, (global const char*)leaves, sizeof(leaf_t)};
+#if LEVELS == 2
+    const Arrays top = {top_nodes, (global const char*)instances, sizeof(InstanceRecord)};
+#endif
     for (uint i = first; i < last; ++i) {
         Walk walk;
+        entry_t stack[STACK_SIZE];
         LocalRay ray;
         float scale;
         if (begin_walk(&rays[i], &ray, &scale, &walk)) {
 #if LEVELS == 2
-            traverse_top(&ray, top_nodes, instances, nodes, leaves, &walk);
+            traverse_top(&ray, &top, &arrays, &walk, stack);
 #else
-            traverse_bottom(&ray, nodes, leaves, 0, 0, &walk);
+            traverse_bottom(&ray, &arrays, 0, 0, &walk, stack);
 #endif
         }
 #if FLATTENED

@@ -2,6 +2,7 @@
 // A ray in one space (world, or the object space of an instance), with what the box test needs worked out once.
 #ifndef BOXWOOD_TRAVERSE_LOCAL_RAY_H
 #define BOXWOOD_TRAVERSE_LOCAL_RAY_H
+#include "runtime/inline.h"
 #include "runtime/numerics.h"
 #include "shared/instance.h"
 #include "shared/ray.h"
@@ -9,11 +10,12 @@
 typedef struct LocalRay {
     float3 origin;
     float3 direction;
-    float3 near_inverse; ///< 1 / direction, for the planes where the ray enters; never above the exact magnitude.
-    float3 far_inverse;  ///< The same for the planes where it leaves; never below.
+    // Negative, so that a box's planes are subtracted from the origin: straight from memory, without a load before.
+    float3 minus_near_inverse; ///< -1 / direction, for the planes where the ray enters; magnitude at most the exact one.
+    float3 minus_far_inverse;  ///< The same for the planes where it leaves; magnitude at least the exact one.
 } LocalRay;
 
-// How far the inverses are moved. Let u = 2^-24. A slab distance (plane - origin) * inverse takes a rounding of the
+// How far the inverses are moved. Let u = 2^-24. A slab distance (origin - plane) * -inverse takes a rounding of the
 // difference (u), one of the reciprocal (2.5 ulp <= 5u by the OpenCL standard), one of the reciprocal's product with the
 // factor below (u) and one of the last product (u): 8u, and terms of second order below u. A factor of 1 -/+ 16u
 // therefore makes every entry distance at most, and every exit distance at least, the exact one, with 7u left for the
@@ -24,39 +26,40 @@ typedef struct LocalRay {
 /// One component. A zero direction gives +infinity for both: its slab then never limits the ray inside (-inf to +inf,
 /// and 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside. A direction so small that its
 /// reciprocal overflows has a finite, smaller one for entering.
-inline float near_inverse_of(float direction) {
+INLINE float near_inverse_of(float direction) {
     const float inverse = clamp(1.0f / direction * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
     return direction == 0.0f ? INFINITY : inverse;
 }
 
-inline float far_inverse_of(float direction) {
+INLINE float far_inverse_of(float direction) {
     return direction == 0.0f ? INFINITY : 1.0f / direction * (1.0f + BOX_SLACK);
 }
 
-inline LocalRay make_local_ray(float3 origin, float3 direction) {
+INLINE LocalRay make_local_ray(float3 origin, float3 direction) {
     LocalRay ray;
     ray.origin = origin;
     ray.direction = direction;
-    ray.near_inverse =
-        (float3)(near_inverse_of(direction.x), near_inverse_of(direction.y), near_inverse_of(direction.z));
-    ray.far_inverse = (float3)(far_inverse_of(direction.x), far_inverse_of(direction.y), far_inverse_of(direction.z));
+    ray.minus_near_inverse =
+        -(float3)(near_inverse_of(direction.x), near_inverse_of(direction.y), near_inverse_of(direction.z));
+    ray.minus_far_inverse =
+        -(float3)(far_inverse_of(direction.x), far_inverse_of(direction.y), far_inverse_of(direction.z));
     return ray;
 }
 
 /// Row `row` of an affine map applied to a point.
-inline float map_point(global const float* matrix, uint row, float3 p) {
+INLINE float map_point(global const float* matrix, uint row, float3 p) {
     const float4 m = vload4(row, matrix);
     return fma(m.x, p.x, fma(m.y, p.y, fma(m.z, p.z, m.w)));
 }
 
 /// The same without the translation.
-inline float map_direction(global const float* matrix, uint row, float3 d) {
+INLINE float map_direction(global const float* matrix, uint row, float3 d) {
     const float4 m = vload4(row, matrix);
     return fma(m.x, d.x, fma(m.y, d.y, m.z * d.z));
 }
 
 /// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space.
-inline LocalRay to_object_space(const LocalRay* ray, global const InstanceRecord* instance) {
+INLINE LocalRay to_object_space(const LocalRay* ray, global const InstanceRecord* instance) {
     global const float* m = instance->to_object;
     const float3 p = ray->origin;
     const float3 d = ray->direction;
@@ -65,7 +68,7 @@ inline LocalRay to_object_space(const LocalRay* ray, global const InstanceRecord
 }
 
 /// True when the ray is one that may hit something; see Ray.
-inline bool is_valid_ray(float4 origin, float4 direction) {
+INLINE bool is_valid_ray(float4 origin, float4 direction) {
     const float t_min = origin.w;
     const float t_max = direction.w;
     const bool finite = all(isfinite(origin)) && all(isfinite(direction.xyz));
@@ -76,7 +79,7 @@ inline bool is_valid_ray(float4 origin, float4 direction) {
 /// A power of two that brings the largest component of the direction to about 1 (to [2^-23, 4) at the extremes of
 /// float), so that no product in traversal over- or underflows because a direction is long or short. Distances along the
 /// scaled ray are exactly t / scale.
-inline float direction_scale(float3 direction) {
+INLINE float direction_scale(float3 direction) {
     const float largest = fmax(fabs(direction.x), fmax(fabs(direction.y), fabs(direction.z)));
     const uint exponent = clamp(as_uint(largest) >> 23, 1u, 253u);
     return as_float((254u - exponent) << 23);

@@ -12,11 +12,11 @@
 #define EARLIER(candidate, running) ((candidate) < (running) ? (candidate) : (running))
 
 /// Entry distance of one axis: `planes` are the low faces when the direction is not negative, else the high ones.
-#define ENTRY(planes, axis) (((planes) - ray->origin.axis) * ray->near_inverse.axis)
-#define EXIT(planes, axis) (((planes) - ray->origin.axis) * ray->far_inverse.axis)
+#define ENTRY(planes, axis) ((ray->origin.axis - (planes)) * ray->minus_near_inverse.axis)
+#define EXIT(planes, axis) ((ray->origin.axis - (planes)) * ray->minus_far_inverse.axis)
 
 /// Where the ray is inside one box within [t_min, t_max]: from *entry on. False when nowhere. The empty box is nowhere.
-inline bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, float t_max, float* entry) {
+INLINE bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, float t_max, float* entry) {
     const bool down_x = ray->direction.x < 0.0f;
     const bool down_y = ray->direction.y < 0.0f;
     const bool down_z = ray->direction.z < 0.0f;
@@ -37,18 +37,19 @@ inline bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, fl
 }
 
 /// The eight children of a wide8 node at once: bit i of the result says that child i is met, from lane i of *entry on.
-inline uint ray_box8(const LocalRay* ray, global const Wide8Node* node, float t_min, float t_max, float8* entry) {
-    // Rows of eight floats: min_x, max_x, min_y, max_y, min_z, max_z.
-    global const float* rows = node->min_x;
+INLINE uint ray_box8(const LocalRay* ray, global const Wide8Node* node, float t_min, float t_max, float8* entry) {
+    // Rows of eight floats: min_x, max_x, min_y, max_y, min_z, max_z. Aligned, as buffers are to 128 bytes at least and
+    // nodes have 256: vload8 would not know, and PoCL makes two loads and a shuffle of it.
+    global const float8* rows = (global const float8*)node->min_x;
     const uint near_x = ray->direction.x < 0.0f ? 1 : 0;
     const uint near_y = ray->direction.y < 0.0f ? 3 : 2;
     const uint near_z = ray->direction.z < 0.0f ? 5 : 4;
-    const float8 entry_x = ENTRY(vload8(near_x, rows), x);
-    const float8 entry_y = ENTRY(vload8(near_y, rows), y);
-    const float8 entry_z = ENTRY(vload8(near_z, rows), z);
-    const float8 exit_x = EXIT(vload8(near_x ^ 1, rows), x);
-    const float8 exit_y = EXIT(vload8(near_y ^ 1, rows), y);
-    const float8 exit_z = EXIT(vload8(near_z ^ 1, rows), z);
+    const float8 entry_x = ENTRY(rows[near_x], x);
+    const float8 entry_y = ENTRY(rows[near_y], y);
+    const float8 entry_z = ENTRY(rows[near_z], z);
+    const float8 exit_x = EXIT(rows[near_x ^ 1], x);
+    const float8 exit_y = EXIT(rows[near_y ^ 1], y);
+    const float8 exit_z = EXIT(rows[near_z ^ 1], z);
     float8 first = (float8)(t_min);
     first = LATER(entry_x, first);
     first = LATER(entry_y, first);

@@ -28,7 +28,7 @@ typedef struct Crossing {
 /// Bit i of the result says that triangle i is hit with t_min < t <= t_max; then lane i of *crossing holds where.
 /// Triangles whose two edges are parallel or zero are never hit: the two products in each component of the normal are
 /// then equal and rounded alike, so the normal is exactly zero, and so is the determinant.
-inline uint ray_triangle(const LocalRay* ray, global const leaf_t* leaf, float t_min, float t_max,
+INLINE uint ray_triangle(const LocalRay* ray, global const leaf_t* leaf, float t_min, float t_max,
                          Crossing* crossing) {
     const real_t edge1_x = LOAD_REAL(edge1, x), edge1_y = LOAD_REAL(edge1, y), edge1_z = LOAD_REAL(edge1, z);
     const real_t edge2_x = LOAD_REAL(edge2, x), edge2_y = LOAD_REAL(edge2, y), edge2_z = LOAD_REAL(edge2, z);

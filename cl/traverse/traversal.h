@@ -6,43 +6,44 @@
 #include "traverse/visit_node.h"
 
 /// True once nothing can change the answer any more.
-inline bool is_settled(const Walk* walk) { return ANY_HIT && walk->primitive != BOXWOOD_NONE; }
+INLINE bool is_settled(const Walk* walk) { return ANY_HIT && walk->primitive != BOXWOOD_NONE; }
 
 /// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit; BOXWOOD_NONE when none is left.
-inline uint next_reference(Walk* walk, uint bottom) {
+INLINE uint next_reference(Walk* walk, const entry_t* stack, uint bottom) {
     while (walk->top > bottom) {
-        const entry_t entry = walk->stack[--walk->top];
+        const entry_t entry = stack[--walk->top];
         if (ENTRY_DISTANCE(entry) <= walk->t_max) return (uint)entry;
     }
     return BOXWOOD_NONE;
 }
 
 /// Everything below node `reference`. BOXWOOD_NONE has the leaf bit, so the inner loop ends where nothing is met.
-inline void traverse_bottom(const LocalRay* ray, global const node_t* nodes, global const leaf_t* leaves,
-                            uint reference, uint instance, Walk* walk) {
+INLINE void traverse_bottom(const LocalRay* ray, const Arrays* arrays, uint reference, uint instance, Walk* walk,
+                            entry_t* stack) {
+    global const leaf_t* leaves = (global const leaf_t*)arrays->leaves;
     const uint bottom = walk->top;
     do {
-        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, &nodes[reference], walk);
+        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, arrays, reference, walk, stack);
         if (reference != BOXWOOD_NONE) visit_leaf(ray, &leaves[reference & ~BOXWOOD_LEAF], instance, walk);
         if (is_settled(walk)) return;
-        reference = next_reference(walk, bottom);
+        reference = next_reference(walk, stack, bottom);
     } while (reference != BOXWOOD_NONE);
 }
 
 #if LEVELS == 2
 
-inline void traverse_top(const LocalRay* ray, global const node_t* top_nodes, global const InstanceRecord* instances,
-                         global const node_t* nodes, global const leaf_t* leaves, Walk* walk) {
+INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* arrays, Walk* walk, entry_t* stack) {
+    global const InstanceRecord* instances = (global const InstanceRecord*)top->leaves;
     uint reference = 0;
     do {
-        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, &top_nodes[reference], walk);
+        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, top, reference, walk, stack);
         if (reference != BOXWOOD_NONE) {
             const uint instance = reference & ~BOXWOOD_LEAF;
             const LocalRay local_ray = to_object_space(ray, &instances[instance]);
-            traverse_bottom(&local_ray, nodes, leaves, instances[instance].root, instance, walk);
+            traverse_bottom(&local_ray, arrays, instances[instance].root, instance, walk, stack);
         }
         if (is_settled(walk)) return;
-        reference = next_reference(walk, 0);
+        reference = next_reference(walk, stack, 0);
     } while (reference != BOXWOOD_NONE);
 }
 
@@ -50,7 +51,7 @@ inline void traverse_top(const LocalRay* ray, global const node_t* top_nodes, gl
 
 /// Sets up `walk` and the ray in world space, with its direction scaled by the power of two *scale: distances in `walk`
 /// are t / *scale. False when the ray cannot hit anything.
-inline bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Walk* walk) {
+INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Walk* walk) {
     const float4 origin = vload4(0, source->origin);
     const float4 direction = vload4(0, source->direction);
     walk->primitive = BOXWOOD_NONE;

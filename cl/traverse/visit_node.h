@@ -2,14 +2,32 @@
 // One step down: tests the children of a node, puts all that are met but one on the stack, and goes on with that one.
 #ifndef BOXWOOD_TRAVERSE_VISIT_NODE_H
 #define BOXWOOD_TRAVERSE_VISIT_NODE_H
+#include "runtime/prefetch.h"
 #include "traverse/ray_box.h"
 #include "traverse/walk.h"
 
+// Exchanges two entries when the first is farther, without a branch.
+#define ORDER(near_entry, far_entry)                        \
+    do {                                                    \
+        const entry_t lower = min(near_entry, far_entry);   \
+        far_entry = max(near_entry, far_entry);             \
+        near_entry = lower;                                 \
+    } while (0)
+
 #if LAYOUT == 8
 
-/// The nearest child met, the others left on the stack from far to near. BOXWOOD_NONE when none is met. For any hit the
-/// order does not matter.
-inline uint visit_node(const LocalRay* ray, global const node_t* node, Walk* walk) {
+/// The entry of child `lane`, which will be visited soon: its memory is asked for now.
+INLINE entry_t child_entry(global const node_t* node, const float* distance, uint lane, const Arrays* arrays) {
+    const uint reference = node->child[lane];
+    const size_t leaf = (size_t)(reference & ~BOXWOOD_LEAF) * arrays->leaf_bytes;
+    prefetch_256((reference & BOXWOOD_LEAF) != 0 ? arrays->leaves + leaf
+                                                 : (global const char*)&arrays->nodes[reference]);
+    return ENTRY_OF(distance[lane], reference);
+}
+
+/// The nearest child met, the others left on the stack from far to near. BOXWOOD_NONE when none is met.
+INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Walk* walk, entry_t* stack) {
+    global const node_t* node = &arrays->nodes[index];
 #if STATISTICS
     walk->statistics.volumes += node->count;
 #endif
@@ -18,32 +36,42 @@ inline uint visit_node(const LocalRay* ray, global const node_t* node, Walk* wal
     if (met == 0) return BOXWOOD_NONE;
     uint lane = first_lane(met);
     met &= met - 1;
-    const uint first = node->child[lane];
-    if (met == 0) return first;
-#if ANY_HIT
-    for (; met != 0; met &= met - 1) walk->stack[walk->top++] = node->child[first_lane(met)];
-    return first;
-#else
+    if (met == 0) return node->child[lane];
+
+    // Two and three children, by far the most frequent, are ordered without branches; more are inserted one by one.
     float distance[8];
     vstore8(entries, 0, distance);
+    entry_t nearest = child_entry(node, distance, lane, arrays);
+    lane = first_lane(met);
+    met &= met - 1;
+    entry_t farthest = child_entry(node, distance, lane, arrays);
+    ORDER(nearest, farthest);
     const uint bottom = walk->top;
-    entry_t nearest = ENTRY_OF(distance[lane], first);
-    for (; met != 0; met &= met - 1) {
+    if (met != 0) {
         lane = first_lane(met);
-        const entry_t other = ENTRY_OF(distance[lane], node->child[lane]);
-        const entry_t farther = max(nearest, other);
-        nearest = min(nearest, other);
-        uint place = walk->top++;
-        for (; place > bottom && walk->stack[place - 1] < farther; --place) walk->stack[place] = walk->stack[place - 1];
-        walk->stack[place] = farther;
+        met &= met - 1;
+        entry_t middle = child_entry(node, distance, lane, arrays);
+        ORDER(middle, farthest);
+        ORDER(nearest, middle);
+        stack[walk->top++] = farthest;
+        for (; met != 0; met &= met - 1) {
+            entry_t other = child_entry(node, distance, first_lane(met), arrays);
+            ORDER(middle, other);
+            ORDER(nearest, middle);
+            uint place = walk->top++;
+            for (; place > bottom && stack[place - 1] < other; --place) stack[place] = stack[place - 1];
+            stack[place] = other;
+        }
+        farthest = middle;
     }
+    stack[walk->top++] = farthest;
     return (uint)nearest;
-#endif
 }
 
 #else
 
-inline uint visit_node(const LocalRay* ray, global const node_t* node, Walk* walk) {
+INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Walk* walk, entry_t* stack) {
+    global const node_t* node = &arrays->nodes[index];
 #if STATISTICS
     walk->statistics.volumes += node->child[1] == BOXWOOD_NONE ? 1 : 2;
 #endif
@@ -52,7 +80,7 @@ inline uint visit_node(const LocalRay* ray, global const node_t* node, Walk* wal
     const bool met1 = ray_box(ray, &node->bounds[1], walk->t_min, walk->t_max, &entry1);
     if (met0 && met1) {
         const bool swapped = entry1 < entry0;
-        walk->stack[walk->top++] = ENTRY_OF(swapped ? entry0 : entry1, node->child[swapped ? 0 : 1]);
+        stack[walk->top++] = ENTRY_OF(swapped ? entry0 : entry1, node->child[swapped ? 0 : 1]);
         return node->child[swapped ? 1 : 0];
     }
     return met0 ? node->child[0] : met1 ? node->child[1] : BOXWOOD_NONE;

@@ -5,22 +5,25 @@
 #include "traverse/config.h"
 #include "traverse/ray_triangle.h"
 
-// A stack entry is a child reference; for closest hit with the distance to the child's box in the upper half. Distances
-// are not negative, so entries compare as their distances do.
-#if ANY_HIT
-typedef uint entry_t;
-#define ENTRY_OF(distance, reference) (reference)
-#define ENTRY_DISTANCE(entry) 0.0f
-#else
+// A stack entry is the distance to a child's box and, in the lower half, the child reference. Distances are not negative,
+// so entries compare as their distances do.
 typedef ulong entry_t;
 #define ENTRY_OF(distance, reference) ((ulong)as_uint(distance) << 32 | (reference))
 #define ENTRY_DISTANCE(entry) as_float((uint)((entry) >> 32))
-#endif
 
-/// STACK_SIZE suffices when it is LAYOUT - 1 times the most nodes on a path from the root to a leaf's parent, both
-/// levels added up. Proof: the traversal is depth first, so the entries present are siblings of nodes on the path to the
-/// node at hand (in a bottom tree: siblings on the way down it, above those on the way to its instance); a node on the
-/// path leaves behind all of its children but the one that was entered, at most LAYOUT - 1, and it was itself taken off.
+/// The nodes of one level and what its leaf references index: leaf_t below, InstanceRecord at the top.
+typedef struct Arrays {
+    global const node_t* nodes;
+    global const char* leaves;
+    uint leaf_bytes;
+} Arrays;
+
+// STACK_SIZE suffices when it is LAYOUT - 1 times the most nodes on a path from the root to a leaf's parent, both levels
+// added up. Proof: the traversal is depth first, so the entries present are siblings of nodes on the path to the node at
+// hand (in a bottom tree: siblings on the way down it, above those on the way to its instance); a node on the path leaves
+// behind all of its children but the one that was entered, at most LAYOUT - 1, and it was itself taken off.
+
+/// The stack itself is a variable of its own: an array inside would keep the whole struct out of registers.
 typedef struct Walk {
     float t_min;
     float t_max; ///< Where the search ends: t of the best hit, once there is one. Always finite.
@@ -31,11 +34,10 @@ typedef struct Walk {
     RayStatistics statistics;
 #endif
     uint top; ///< Entries on the stack.
-    entry_t stack[STACK_SIZE];
 } Walk;
 
 /// Tests a leaf's triangles and keeps the best hit: the smallest t, then the lowest (instance, primitive).
-inline void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint instance, Walk* walk) {
+INLINE void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint instance, Walk* walk) {
 #if STATISTICS
 #if LAYOUT == 8
     const uint4 used = vload4(0, leaf->primitive) != BOXWOOD_NONE ? (uint4)(1) : (uint4)(0);
