@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "boxwood/device.hpp"
+#include "boxwood/error.hpp"
+#include "runtime/launch.hpp"
+#include "support.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("runtime");
+
+namespace {
+
+/// Sets an environment variable (or clears it: nullptr) until the end of the scope.
+class Variable {
+public:
+    Variable(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) previous_ = old;
+        set(value);
+    }
+    ~Variable() { set(previous_ ? previous_->c_str() : nullptr); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    void set(const char* value) const {
+        if (value)
+            setenv(name_, value, 1);
+        else
+            unsetenv(name_);
+    }
+    const char* name_;
+    std::optional<std::string> previous_;
+};
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("device: chosen by index, by part of a name in any case, by the environment") {
+    const std::vector<DeviceInfo> all = list_devices();
+    REQUIRE(!all.empty());
+    for (std::size_t i = 0; i < all.size(); ++i) CHECK(all[i].index == i);
+    const DeviceInfo& last = all.back();
+    CHECK(Device(std::to_string(last.index)).info().index == last.index);
+
+    // The first device whose name or platform holds the word.
+    const std::string word = upper(all[0].name.substr(0, all[0].name.size() / 2 + 1));
+    CHECK(Device(word).info().index == 0);
+    CHECK(upper(Device(upper(last.platform)).info().platform).find(upper(last.platform)) != std::string::npos);
+    {
+        const Variable variable("BOXWOOD_DEVICE", std::to_string(last.index).c_str());
+        CHECK(Device().info().index == last.index);
+        CHECK(Device("0").info().index == 0); // the argument wins
+    }
+    {
+        const Variable variable("BOXWOOD_DEVICE", "no such device");
+        CHECK_THROWS_AS(Device(), DeviceError);
+        CHECK_NOTHROW(Device("0"));
+    }
+    const Variable variable("BOXWOOD_DEVICE", nullptr);
+    CHECK(Device().info().index == 0);
+}
+
+TEST_CASE("device: an unknown selector is refused with a listing of all devices") {
+    const std::vector<DeviceInfo> all = list_devices();
+    for (const std::string& selector : {std::string("no such device"), std::to_string(all.size())}) {
+        try {
+            const Device device(selector);
+            FAIL("did not throw");
+        } catch (const DeviceError& error) {
+            const std::string what = error.what();
+            CHECK(what.find("\"" + selector + "\"") != std::string::npos);
+            for (const DeviceInfo& info : all) {
+                CHECK(what.find(info.name) != std::string::npos);
+                CHECK(what.find(info.platform) != std::string::npos);
+            }
+        }
+    }
+}
+
+TEST_CASE("device: a tuning that cannot be is refused and changes nothing") {
+    Device& device = test_device();
+    const Tuning before = device.tuning();
+    for (const Tuning& bad : {Tuning{0, 1, 1}, Tuning{1, 0, 1}, Tuning{1, 1, 0}, Tuning{1u << 30, 1, 1}})
+        CHECK_THROWS_AS(device.set_tuning(bad), DeviceError);
+    CHECK(device.tuning().group_size == before.group_size);
+    CHECK(device.tuning().work_items == before.work_items);
+    CHECK(device.tuning().smallest_slice == before.smallest_slice);
+}
+
+TEST_CASE("device: slices cover every element once, none is empty") {
+    Device& device = test_device();
+    for (const Tuning& tuning : {Tuning{1, 16, 256}, Tuning{1, 7, 5}, Tuning{1, 1, 1}, Tuning{1, 4096, 1}}) {
+        const TuningScope scope(tuning);
+        for (const std::size_t count : {1u, 4u, 5u, 6u, 35u, 36u, 255u, 256u, 257u, 4096u, 4097u, 1000003u}) {
+            for (const std::size_t multiple : {1u, 64u}) {
+                CAPTURE(count);
+                const Slices slices = cut(device, count, multiple);
+                CHECK(slices.length % multiple == 0);
+                CHECK(slices.length >= tuning.smallest_slice);
+                CHECK(slices.slices <= tuning.work_items);
+                CHECK(std::size_t(slices.slices) * slices.length >= count);
+                CHECK(std::size_t(slices.slices - 1) * slices.length < count);
+            }
+        }
+        CHECK(cut(device, 0).slices == 0);
+    }
+}

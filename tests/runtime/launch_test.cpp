@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "boxwood/error.hpp"
+#include "runtime/kernel_text.hpp"
+#include "runtime/launch.hpp"
+#include "support.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("runtime");
+
+namespace {
+
+constexpr const char* counting = "kernel void count(global uint* out, uint first) {\n"
+                                 "    out[get_global_id(0)] = first + (uint)get_global_id(0) + STEP;\n"
+                                 "}\n";
+constexpr const char* broken = "// one\n#include \"launch_test/part.h\"\nkernel void f(global uint* out) {\n"
+                               "    out[0] = not_declared;\n}\n";
+
+KernelRef count_kernel(const char* step) { return {"launch_test/count.cl", "count", {{"STEP", step}}}; }
+
+void add_texts() {
+    add_kernels({{"launch_test/count.cl", counting},
+                 {"launch_test/broken.cl", broken},
+                 {"launch_test/part.h", "#define PART 1\n\n"},
+                 {"launch_test/missing.cl", "#include \"launch_test/nowhere.h\"\n"}});
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("launch: runs over whole groups with its arguments and macros, or not at all") {
+    add_texts();
+    Device& device = test_device();
+    const TuningScope scope({4, 16, 1});
+    Guarded<std::uint32_t> out(device, 8); // 5 work-items are rounded up to two groups
+    launch(device, count_kernel("100"), "count", 5, out.view(), std::uint32_t(10));
+    CHECK(out.values() == std::vector<std::uint32_t>{110, 111, 112, 113, 114, 115, 116, 117});
+    launch(device, count_kernel("200"), "count", 4, out.view(), std::uint32_t(10));
+    CHECK(out.values()[0] == 210);
+    CHECK(out.values()[4] == 114);
+    launch(device, count_kernel("300"), "count", 0, out.view(), std::uint32_t(10));
+    CHECK(out.values()[0] == 210);
+    CHECK(out.intact());
+}
+
+TEST_CASE("launch: a wrong number or size of arguments, or no such kernel, is a DeviceError") {
+    add_texts();
+    Device& device = test_device();
+    Guarded<std::uint32_t> out(device, 64);
+    try {
+        launch(device, count_kernel("1"), "count", 1, out.view());
+        FAIL("did not throw");
+    } catch (const DeviceError& error) {
+        CHECK(error.kernel == "count");
+        CHECK(has(error.what(), "takes 2 arguments, got 1"));
+    }
+    CHECK_THROWS_AS(launch(device, count_kernel("1"), "count", 1, out.view(), 1u, 2u), DeviceError);
+    CHECK_THROWS_AS(launch(device, count_kernel("1"), "count", 1, out.view(), std::uint64_t(1)), DeviceError);
+    const KernelRef nameless{"launch_test/count.cl", "no_such_kernel", {{"STEP", "1"}}};
+    CHECK_THROWS_AS(launch(device, nameless, "count", 1, out.view(), 1u), DeviceError);
+}
+
+TEST_CASE("launch: a program that does not compile says file, line, device, options, log and text") {
+    add_texts();
+    Device& device = test_device();
+    try {
+        compile(device, {"launch_test/broken.cl", "f", {{"SOME_MACRO", "17"}}});
+        FAIL("did not throw");
+    } catch (const ProgramError& error) {
+        CHECK(error.file == "launch_test/broken.cl");
+        CHECK(error.device == device.info().name);
+        CHECK(has(error.options, "-DSOME_MACRO=17"));
+        CHECK(has(error.options, "-cl-std=" + device.info().language));
+        CHECK(has(error.log, "not_declared"));
+        CHECK(has(error.log, "launch_test/broken.cl:4")); // as in the file, not in the text with its includes
+        for (const std::string& part : {error.file, error.device, error.options, std::string("out[0] = not_declared")})
+            CHECK(has(error.what(), part));
+    }
+}
+
+TEST_CASE("launch: a missing file is a ProgramError that names it") {
+    add_texts();
+    try {
+        compile(test_device(), {"launch_test/missing.cl", "f"});
+        FAIL("did not throw");
+    } catch (const ProgramError& error) {
+        CHECK(error.file == "launch_test/missing.cl");
+        CHECK(has(error.what(), "launch_test/nowhere.h"));
+    }
+    CHECK_THROWS_AS(compile(test_device(), {"launch_test/nothing.cl", "f"}), ProgramError);
+}

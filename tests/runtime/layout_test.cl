@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Sizes and offsets of every shared struct as the device sees them.
+//
+// compile:
+#include "shared/aabb.h"
+#include "shared/camera.h"
+#include "shared/instance.h"
+#include "shared/node.h"
+#include "shared/ray.h"
+#include "shared/triangle.h"
+
+#define OFFSET(type, member) (uint)((size_t)&((private type*)0)->member)
+
+/// Same order as tests/runtime/layout_test.cpp.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(global uint* out) {
+    if (get_global_id(0) != 0) return;
+    const uint values[] = {
+        sizeof(Aabb), OFFSET(Aabb, min), OFFSET(Aabb, max),
+        sizeof(CameraRecord), OFFSET(CameraRecord, origin), OFFSET(CameraRecord, perspective),
+        OFFSET(CameraRecord, forward), OFFSET(CameraRecord, width), OFFSET(CameraRecord, right),
+        OFFSET(CameraRecord, height), OFFSET(CameraRecord, up), OFFSET(CameraRecord, reserved),
+        sizeof(InstanceRecord), OFFSET(InstanceRecord, to_object), OFFSET(InstanceRecord, to_world),
+        OFFSET(InstanceRecord, mesh), OFFSET(InstanceRecord, root), OFFSET(InstanceRecord, reserved),
+        sizeof(MeshRange), OFFSET(MeshRange, first_vertex), OFFSET(MeshRange, vertex_count),
+        OFFSET(MeshRange, first_triangle), OFFSET(MeshRange, triangle_count),
+        sizeof(BinaryNode), OFFSET(BinaryNode, bounds), OFFSET(BinaryNode, child), OFFSET(BinaryNode, reserved),
+        sizeof(Wide8Node), OFFSET(Wide8Node, min_x), OFFSET(Wide8Node, max_x), OFFSET(Wide8Node, min_y),
+        OFFSET(Wide8Node, max_y), OFFSET(Wide8Node, min_z), OFFSET(Wide8Node, max_z), OFFSET(Wide8Node, child),
+        OFFSET(Wide8Node, count), OFFSET(Wide8Node, reserved),
+        sizeof(Ray), OFFSET(Ray, origin), OFFSET(Ray, t_min), OFFSET(Ray, direction), OFFSET(Ray, t_max),
+        sizeof(Hit), OFFSET(Hit, t), OFFSET(Hit, u), OFFSET(Hit, v), OFFSET(Hit, primitive), OFFSET(Hit, instance),
+        sizeof(RayStatistics), OFFSET(RayStatistics, volumes), OFFSET(RayStatistics, primitives),
+        sizeof(Triangle), OFFSET(Triangle, v0), OFFSET(Triangle, primitive), OFFSET(Triangle, edge1),
+        OFFSET(Triangle, reserved1), OFFSET(Triangle, edge2), OFFSET(Triangle, reserved2),
+        sizeof(Triangle4), OFFSET(Triangle4, v0_x), OFFSET(Triangle4, v0_y), OFFSET(Triangle4, v0_z),
+        OFFSET(Triangle4, edge1_x), OFFSET(Triangle4, edge1_y), OFFSET(Triangle4, edge1_z),
+        OFFSET(Triangle4, edge2_x), OFFSET(Triangle4, edge2_y), OFFSET(Triangle4, edge2_z),
+        OFFSET(Triangle4, primitive)};
+    const uint count = sizeof(values) / sizeof(uint);
+    out[0] = count;
+    for (uint i = 0; i < count; ++i) out[1 + i] = values[i];
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cstddef>
+
+#include "runtime/launch.hpp"
+#include "shared/aabb.h"
+#include "shared/camera.h"
+#include "shared/instance.h"
+#include "shared/node.h"
+#include "shared/ray.h"
+#include "shared/triangle.h"
+#include "support.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("runtime");
+
+// clang-format off
+TEST_CASE("layout: host and device agree on size and offsets of every shared struct") {
+    // Same order as tests/runtime/layout_test.cl.
+    const std::vector<std::size_t> expected{
+        sizeof(Aabb), offsetof(Aabb, min), offsetof(Aabb, max),
+        sizeof(CameraRecord), offsetof(CameraRecord, origin), offsetof(CameraRecord, perspective),
+        offsetof(CameraRecord, forward), offsetof(CameraRecord, width), offsetof(CameraRecord, right),
+        offsetof(CameraRecord, height), offsetof(CameraRecord, up), offsetof(CameraRecord, reserved),
+        sizeof(InstanceRecord), offsetof(InstanceRecord, to_object), offsetof(InstanceRecord, to_world),
+        offsetof(InstanceRecord, mesh), offsetof(InstanceRecord, root), offsetof(InstanceRecord, reserved),
+        sizeof(MeshRange), offsetof(MeshRange, first_vertex), offsetof(MeshRange, vertex_count),
+        offsetof(MeshRange, first_triangle), offsetof(MeshRange, triangle_count),
+        sizeof(BinaryNode), offsetof(BinaryNode, bounds), offsetof(BinaryNode, child), offsetof(BinaryNode, reserved),
+        sizeof(Wide8Node), offsetof(Wide8Node, min_x), offsetof(Wide8Node, max_x), offsetof(Wide8Node, min_y),
+        offsetof(Wide8Node, max_y), offsetof(Wide8Node, min_z), offsetof(Wide8Node, max_z), offsetof(Wide8Node, child),
+        offsetof(Wide8Node, count), offsetof(Wide8Node, reserved),
+        sizeof(Ray), offsetof(Ray, origin), offsetof(Ray, t_min), offsetof(Ray, direction), offsetof(Ray, t_max),
+        sizeof(Hit), offsetof(Hit, t), offsetof(Hit, u), offsetof(Hit, v), offsetof(Hit, primitive), offsetof(Hit, instance),
+        sizeof(RayStatistics), offsetof(RayStatistics, volumes), offsetof(RayStatistics, primitives),
+        sizeof(Triangle), offsetof(Triangle, v0), offsetof(Triangle, primitive), offsetof(Triangle, edge1),
+        offsetof(Triangle, reserved1), offsetof(Triangle, edge2), offsetof(Triangle, reserved2),
+        sizeof(Triangle4), offsetof(Triangle4, v0_x), offsetof(Triangle4, v0_y), offsetof(Triangle4, v0_z),
+        offsetof(Triangle4, edge1_x), offsetof(Triangle4, edge1_y), offsetof(Triangle4, edge1_z),
+        offsetof(Triangle4, edge2_x), offsetof(Triangle4, edge2_y), offsetof(Triangle4, edge2_z),
+        offsetof(Triangle4, primitive)};
+    // clang-format on
+    Guarded<std::uint32_t> out(test_device(), 1 + expected.size());
+    launch(test_device(), {"runtime/layout_test.cl", "layout_test"}, "layout test", 1, out.view());
+    const std::vector<std::uint32_t> got = out.values();
+    REQUIRE(out.intact());
+    REQUIRE(got[0] == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        CAPTURE(i);
+        CHECK(got[1 + i] == expected[i]);
+    }
+}
