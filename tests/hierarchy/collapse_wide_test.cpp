@@ -8,11 +8,10 @@
 #include <span>
 
 #include "boxwood/collapse.hpp"
+#include "hierarchy/forest_scene.hpp"
 #include "oracles/wide_cost.hpp"
 #include "support.hpp"
 #include "tuning.hpp"
-// After support.hpp.
-#include "hierarchy/forest_scene.hpp"
 
 using namespace boxwood;
 using namespace boxwood::test;

@@ -8,6 +8,7 @@
 #include "boxwood/scene.hpp"
 #include "hierarchy/forest.hpp"
 #include "oracles/tree_checker.hpp"
+#include "support.hpp"
 
 namespace boxwood::test {
 

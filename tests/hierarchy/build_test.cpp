@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "boxwood/build.hpp"
+#include "boxwood/error.hpp"
+#include "boxwood/requirements.hpp"
+#include "hierarchy/capacity.hpp"
+#include "hierarchy/forest_scene.hpp"
+#include "hierarchy/tree_walker.hpp"
+#include "oracles/wide_cost.hpp"
+#include "support.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("hierarchy");
+
+namespace {
+
+std::vector<BuildOptions> all_options() {
+    std::vector<BuildOptions> all;
+    for (const Levels levels : {Levels::one, Levels::two})
+        for (const Layout layout : {Layout::binary, Layout::wide8})
+            for (const MortonBits morton : {MortonBits::bits30, MortonBits::bits63})
+                all.push_back({levels, layout, morton});
+    return all;
+}
+
+TreeImage build_image(const Scene& scene, const BuildOptions& options, BuildReport* report = nullptr) {
+    return download(test_device(), build(test_device(), scene, options, report));
+}
+
+bool same_trees(const TreeImage& a, const TreeImage& b) {
+    return same_bits(a.binary_nodes, b.binary_nodes) && same_bits(a.triangles, b.triangles) &&
+           same_bits(a.wide_nodes, b.wide_nodes) && same_bits(a.blocks, b.blocks) &&
+           same_bits(a.binary_top, b.binary_top) && same_bits(a.wide_top, b.wide_top) &&
+           same_bits(a.instances, b.instances) && same_bits(a.first_triangles, b.first_triangles) &&
+           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
+}
+
+/// Three meshes placed eight times: mirrored, uneven, sheared, flattened, far from the origin.
+Scene placed_scene() {
+    Scene scene =
+        scene_of({random_mesh(60, 1.0f, 0.2f, 1), random_mesh(1, 1.0f, 1.0f, 2), random_mesh(7, 3.0f, 0.5f, 3)});
+    const auto place = [&](std::uint32_t mesh, glm::vec3 x, glm::vec3 y, glm::vec3 z, glm::vec3 t) {
+        scene.instances.push_back(
+            {"", mesh, glm::mat4(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(z, 0), glm::vec4(t, 1))});
+    };
+    place(0, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {5, 0, 0});
+    place(0, {0.36f, 0.48f, -0.8f}, {-0.8f, 0.6f, 0}, {0.48f, 0.64f, 0.6f}, {1e6f, -1e6f, 3e6f});
+    place(1, {1e-3f, 0, 0}, {0, 7, 0}, {0, 0, 300}, {0.1f, 0.2f, 0.3f});
+    place(2, {1, 2, 3}, {0, 1, 4}, {5, 6, 0}, {-7, 0.3f, 1e-9f});
+    place(0, {1e-6f, 0, 0}, {0, 1e-6f, 0}, {0, 0, -1e-6f}, {1000, 1000, 1000});
+    return scene;
+}
+
+/// Vertices of the primitives below each slot that are outside its box, in double.
+template <class Node, class Leaf, class Outside>
+std::size_t outside_below(const std::vector<Node>& nodes, std::uint32_t root, const Leaf& leaf_points,
+                          const Outside& outside, std::vector<glm::dvec3>& points) {
+    std::size_t wrong = 0;
+    const Node& node = nodes[root];
+    for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
+        std::vector<glm::dvec3> below;
+        if (node.child[slot] & BOXWOOD_LEAF)
+            leaf_points(node.child[slot] & ~BOXWOOD_LEAF, below);
+        else
+            wrong += outside_below(nodes, node.child[slot], leaf_points, outside, below);
+        for (const glm::dvec3& p : below) wrong += outside(tree_check::slot_box(node, slot), p) ? 1 : 0;
+        points.insert(points.end(), below.begin(), below.end());
+    }
+    return wrong;
+}
+
+bool is_outside(const Aabb& box, const glm::dvec3& p) {
+    for (int k = 0; k < 3; ++k)
+        if (!(double(box.min[k]) <= p[k] && p[k] <= double(box.max[k]))) return true;
+    return false;
+}
+
+void add_points(const Mesh& mesh, std::uint32_t primitive, std::vector<glm::dvec3>& points) {
+    for (int k = 0; k < 3; ++k) points.emplace_back(mesh.positions[mesh.triangles[primitive][k]]);
+}
+
+std::size_t outside_bottom(const TreeImage& image, const Mesh& mesh, std::uint32_t root) {
+    std::vector<glm::dvec3> all;
+    if (image.layout == Layout::binary)
+        return outside_below(
+            image.binary_nodes, root,
+            [&](std::uint32_t leaf, auto& points) { add_points(mesh, image.triangles[leaf].primitive, points); },
+            is_outside, all);
+    return outside_below(
+        image.wide_nodes, root,
+        [&](std::uint32_t leaf, auto& points) {
+            for (const std::uint32_t primitive : image.blocks[leaf].primitive)
+                if (primitive != BOXWOOD_NONE) add_points(mesh, primitive, points);
+        },
+        is_outside, all);
+}
+
+std::size_t outside_top(const TreeImage& image, const Scene& scene) {
+    std::vector<glm::dvec3> all;
+    const auto leaf_points = [&](std::uint32_t instance, std::vector<glm::dvec3>& points) {
+        const glm::dmat4 to_world(scene.instances[instance].transform);
+        const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
+        for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(p, 1.0));
+    };
+    return image.layout == Layout::binary ? outside_below(image.binary_top, 0, leaf_points, is_outside, all)
+                                          : outside_below(image.wide_top, 0, leaf_points, is_outside, all);
+}
+
+void check_valid(const Scene& scene, const BuildOptions& options) {
+    const TreeImage image = build_image(scene, options);
+    CHECK(image.layout == options.layout);
+    CHECK(image.levels == options.levels);
+    CHECK_NOTHROW(validate(image, scene, "built"));
+    if (options.levels == Levels::one) {
+        CHECK(outside_bottom(image, flatten(scene).meshes[0], 0) == 0);
+        return;
+    }
+    for (const InstanceRecord& record : image.instances)
+        CHECK(outside_bottom(image, scene.meshes[record.mesh], record.root) == 0);
+    CHECK(outside_top(image, scene) == 0);
+}
+
+} // namespace
+
+TEST_CASE("build: an empty scene gives an empty tree") {
+    for (const BuildOptions& options : all_options()) {
+        Scene scene;
+        BuildReport report;
+        report.nodes = 7;
+        const TreeImage image = build_image(scene, options, &report);
+        CHECK(image.layout == options.layout);
+        CHECK_NOTHROW(validate(image, scene, "built"));
+        CHECK(report.nodes == 0);
+        CHECK(report.max_depth == 0);
+    }
+}
+
+TEST_CASE("build: valid trees whose boxes enclose everything, at every layout, level and code length") {
+    for (const BuildOptions& options : all_options()) {
+        CAPTURE(name(options.layout));
+        CAPTURE(name(options.levels));
+        for (const std::size_t count : {1u, 2u, 3u, 300u}) {
+            CAPTURE(count);
+            check_valid(scene_of({random_mesh(count, 1.0f, 0.3f, count)}), options);
+        }
+        check_valid(placed_scene(), options);
+    }
+}
+
+TEST_CASE("build: meshes without an instance, and an instance that is not the identity") {
+    Scene scene = scene_of({random_mesh(5, 1, 1, 1), random_mesh(900, 1, 1, 2), random_mesh(3, 1, 1, 3)});
+    scene.instances.erase(scene.instances.begin() + 1);
+    scene.instances[0].transform[3] = glm::vec4(100, 0, 0, 1);
+    for (const BuildOptions& options : all_options()) check_valid(scene, options);
+    scene.instances.resize(1);
+    for (const BuildOptions& options : all_options()) check_valid(scene, options);
+}
+
+TEST_CASE("build: automatic levels are two when a mesh is placed twice, else one") {
+    const Scene once = scene_of({random_mesh(5, 1, 1, 1), random_mesh(6, 1, 1, 2)});
+    Scene twice = once;
+    twice.instances.push_back(twice.instances[0]);
+    CHECK(build_image(once, {}).levels == Levels::one);
+    CHECK(build_image(twice, {}).levels == Levels::two);
+    CHECK(words(requirements(once, {})) == std::vector<std::string>{"instance-lookup"});
+    CHECK(words(requirements(twice, {})) == std::vector<std::string>{"two-levels"});
+    CHECK(words(requirements(scene_of({random_mesh(5, 1, 1, 1)}), {})).empty());
+    CHECK(build_image(once, {}).first_triangles == std::vector<std::uint32_t>{0, 5, 11});
+}
+
+TEST_CASE("build: the same bytes every time and at every tuning") {
+    for (const Levels levels : {Levels::one, Levels::two}) {
+        for (const Layout layout : {Layout::binary, Layout::wide8}) {
+            const BuildOptions options{levels, layout, MortonBits::bits30};
+            const TreeImage expected = build_image(placed_scene(), options);
+            CHECK(same_trees(build_image(placed_scene(), options), expected));
+            for (const Tuning& tuning : tunings()) {
+                CAPTURE(tuning.group_size);
+                const TuningScope scope(tuning);
+                CHECK(same_trees(build_image(placed_scene(), options), expected));
+            }
+        }
+    }
+}
+
+TEST_CASE("build: each of 50 meshes has the tree that it has alone") {
+    std::vector<Mesh> meshes;
+    for (std::uint32_t i = 0; i < 50; ++i) meshes.push_back(random_mesh(1 + 7 * i % 40, 1.0f, 0.1f, i));
+    const TreeImage all = build_image(scene_of(meshes), {Levels::two, Layout::binary, MortonBits::bits30});
+    std::uint32_t first = 0;
+    for (const Mesh& mesh : meshes) {
+        TreeImage alone = build_image(scene_of({mesh}), {Levels::one, Layout::binary, MortonBits::bits30});
+        const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+        for (BinaryNode& node : alone.binary_nodes)
+            for (std::uint32_t& child : node.child)
+                if (child != BOXWOOD_NONE) child += first;
+        const auto part = [&](const auto& from) {
+            return std::remove_cvref_t<decltype(from)>(from.begin() + first, from.begin() + first + count);
+        };
+        CHECK(same_bits(part(all.binary_nodes), alone.binary_nodes));
+        CHECK(same_bits(part(all.triangles), alone.triangles));
+        first += count;
+    }
+}
+
+TEST_CASE("build: a scene scaled by a power of two has the same tree, scaled") {
+    const Mesh mesh = random_mesh(500, 1.0f, 0.1f, 4);
+    const BuildOptions options{Levels::one, Layout::wide8, MortonBits::bits63};
+    const TreeImage plain = build_image(scene_of({mesh}), options);
+    for (const int k : {-60, -40, 40, 59}) {
+        CAPTURE(k);
+        Mesh scaled = mesh;
+        for (glm::vec3& p : scaled.positions) p = {std::ldexp(p.x, k), std::ldexp(p.y, k), std::ldexp(p.z, k)};
+        TreeImage expected = plain;
+        for (Wide8Node& node : expected.wide_nodes)
+            for (auto* bounds : {&node.min_x, &node.max_x, &node.min_y, &node.max_y, &node.min_z, &node.max_z})
+                for (float& x : *bounds) x = std::ldexp(x, k);
+        for (Triangle4& b : expected.blocks)
+            for (auto* lanes :
+                 {&b.v0_x, &b.v0_y, &b.v0_z, &b.edge1_x, &b.edge1_y, &b.edge1_z, &b.edge2_x, &b.edge2_y, &b.edge2_z})
+                for (float& x : *lanes) x = std::ldexp(x, k);
+        CHECK(same_trees(build_image(scene_of({scaled}), options), expected));
+    }
+}
