@@ -13,9 +13,9 @@
 // LEAF_COST  cost of testing one leaf (float)
 // compile: LEAF_SIZE=4 NODE_COST=1.0f LEAF_COST=1.0f
 #include "runtime/numerics.h"
+#include "bounds/box.h"
 #include "hierarchy/forest.h"
 #include "hierarchy/shares.h"
-#include "shared/aabb.h"
 
 #if !defined(LEAF_SIZE) || !defined(NODE_COST) || !defined(LEAF_COST)
 #error "define LEAF_SIZE, NODE_COST and LEAF_COST"
@@ -40,11 +40,9 @@ inline float half_area(float3 extent) {
     return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
 }
 
-inline float3 extent_of(global const Aabb* box) { return vload3(0, box->max) - vload3(0, box->min); }
-
 /// Chance that a ray that hits `parent` hits `a` and `b`, by surface area. Extents are first divided by the parent's
 /// largest, so that no product leaves the range of floats. A parent without area counts as always hit.
-inline float2 hit_chances(global const Aabb* parent, global const Aabb* a, global const Aabb* b) {
+inline float2 hit_chances(Box parent, Box a, Box b) {
     const float3 extent = extent_of(parent);
     const float unit = max(max(extent.x, extent.y), extent.z);
     const float whole = half_area(extent / unit);
@@ -70,13 +68,16 @@ inline void try_share(float left, float8 right, int s, float8* best, int8* share
     *share = better ? (int8)(s) : *share;
 }
 
+inline float8 lesser(float8 a, float8 b) { return a < b ? a : b; }
+
 /// Costs and choices of a node from those of its children. Lane j - 1 of the work is for j boxes.
 inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
     if (is_leaf(c, node, count)) {
         c->shares[node] = SHARES_LEAF;
         return;
     }
-    const float2 weight = hit_chances(c->volumes + node, c->volumes + children.x, c->volumes + children.y);
+    const float2 weight = hit_chances(load_box(c->volumes + node), load_box(c->volumes + children.x),
+                                      load_box(c->volumes + children.y));
     const float8 a = child_costs(c, children.x, weight.x, count);
     const float8 b = child_costs(c, children.y, weight.y, count);
     const float none = INFINITY;
@@ -89,24 +90,17 @@ inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
     try_share(a.s4, (float8)(none, none, none, none, none, b.s0, b.s1, b.s2), 5, &best, &share);
     try_share(a.s5, (float8)(none, none, none, none, none, none, b.s0, b.s1), 6, &best, &share);
     try_share(a.s6, (float8)(none, none, none, none, none, none, none, b.s0), 7, &best, &share);
-    float cost[8];
-    vstore8(best, 0, cost);
-    int chosen[8];
-    vstore8(share, 0, chosen);
+    // Lane 0: the node as one box, a wide node of its own. Lane j - 1: never dearer than with fewer boxes.
+    const float8 cost = (float8)(NODE_COST + best.s7, best.s1, best.s2, best.s3, best.s4, best.s5, best.s6, none);
+    float8 fewer = (float8)(none, cost.s0, cost.s1, cost.s2, cost.s3, cost.s4, cost.s5, cost.s6);
+    fewer = lesser(fewer, (float8)(none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5, fewer.s6));
+    fewer = lesser(fewer, (float8)(none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5));
+    fewer = lesser(fewer, (float8)(none, none, none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3));
+    vstore8(lesser(cost, fewer), node, c->costs);
 
-    uint word = (uint)chosen[7] << 18;
-    float least = NODE_COST + cost[7];
-    cost[0] = least;
-    for (int j = 2; j <= 7; ++j) {
-        if (cost[j - 1] < least) {
-            least = cost[j - 1];
-            word |= (uint)chosen[j - 1] << (3 * (j - 2));
-        }
-        cost[j - 1] = least;
-    }
-    cost[7] = least;
-    vstore8(vload8(0, cost), node, c->costs);
-    c->shares[node] = word;
+    const int8 kept = cost < fewer ? share : (int8)(0);
+    const int8 bits = kept << (int8)(0, 0, 3, 6, 9, 12, 15, 0);
+    c->shares[node] = (uint)(bits.s1 | bits.s2 | bits.s3 | bits.s4 | bits.s5 | bits.s6) | (uint)share.s7 << 18;
 }
 
 #include "hierarchy/climb.h"

@@ -35,32 +35,19 @@ typedef struct Range {
     uint split;
 } Range;
 
-/// True when positions i and i + 1 belong to one tree.
-inline bool joined(const Forest* f, uint i) {
+#define NO_GAP 0xffffffffu
+
+/// How far apart positions i and i + 1 are: the highest bit in which their keys differ or, below all of those, in which
+/// the positions of equal keys differ. NO_GAP where no node of a tree spans them: between trees and at the ends. The
+/// gaps at both ends of a node of the radix tree never tie, but for a root's.
+inline uint gap_after(const Forest* f, uint i) {
+    if (i + 1 == 0 || i + 1 == f->count) return NO_GAP; // i + 1 == 0: before the first position
+    const KEY difference = f->keys[i] ^ f->keys[i + 1];
 #if FOREST
-    return i + 1 < f->count && (f->keys[i] >> CODE_BITS) == (f->keys[i + 1] >> CODE_BITS);
-#else
-    return i + 1 < f->count;
+    if (difference >> CODE_BITS) return NO_GAP;
 #endif
-}
-
-/// True when the keys differ at a lower bit across the gap after `a` than across the gap after `b`. Between equal keys
-/// the positions decide. The gaps at both ends of a node of the radix tree never tie.
-inline bool closer(const Forest* f, uint a, uint b) {
-    const KEY at_a = f->keys[a] ^ f->keys[a + 1];
-    const KEY at_b = f->keys[b] ^ f->keys[b + 1];
-    if (at_a != at_b) return at_a < at_b;
-    return (a ^ (a + 1)) < (b ^ (b + 1));
-}
-
-inline bool is_left_child(const Forest* f, Range node) {
-    if (!joined(f, node.last)) return false;
-    if (node.first == 0 || !joined(f, node.first - 1)) return true;
-    return closer(f, node.last, node.first - 1);
-}
-
-inline bool is_root(const Forest* f, Range node) {
-    return !joined(f, node.last) && (node.first == 0 || !joined(f, node.first - 1));
+    const uint key_length = (uint)(8 * sizeof(KEY)) - (uint)clz(difference);
+    return difference ? 32 + key_length : 32 - clz(i ^ (i + 1));
 }
 
 /// Writes the node, now that its side and so its index are known.
@@ -86,8 +73,10 @@ inline void write_root(const Forest* f, Range node) {
 
 /// Climbs from a finished node through the hand-off as far as this work-item is the second to arrive.
 inline void climb(const Forest* f, Range node) {
-    while (!is_root(f, node)) {
-        const bool left = is_left_child(f, node);
+    while (true) {
+        const uint gap_left = gap_after(f, node.first - 1), gap_right = gap_after(f, node.last);
+        if (gap_left == gap_right) break; // both NO_GAP
+        const bool left = gap_right < gap_left;
         write_node(f, node, left);
         const uint split = left ? node.last : node.first - 1;
         f->outer_ends[2 * split + (left ? 0 : 1)] = left ? node.first : node.last;
@@ -114,21 +103,19 @@ void lbvh(global const KEY* keys, global uint2* children, global uint* parents, 
     // current node. outer_ends[2 * last] holds where each begins.
     uint waiting = begin;
     for (uint i = begin; i < end; ++i) {
+        const uint gap_right = gap_after(f, i);
         Range node = {i, i, i};
         while (true) {
-            if (is_root(f, node)) {
-                write_root(f, node);
-                waiting = node.last + 1;
-                break;
-            }
-            if (is_left_child(f, node)) {
+            const uint gap_left = gap_after(f, node.first - 1);
+            if (gap_right < gap_left) {
                 write_node(f, node, true);
-                outer_ends[2 * node.last] = node.first;
+                outer_ends[2 * i] = node.first;
                 break;
             }
-            if (node.first == waiting) { // the left sibling lies outside: others may be at work on it
+            // A root, or a right child whose left sibling lies outside, where others may be at work on it.
+            if (gap_right == gap_left || node.first == waiting) {
                 climb(f, node);
-                waiting = node.last + 1;
+                waiting = i + 1;
                 break;
             }
             write_node(f, node, false);

@@ -8,61 +8,59 @@
 // compile: KEY=ulong AXIS_BITS=10 FOREST=1
 // compile: KEY=ulong AXIS_BITS=21 FOREST=0
 #include "runtime/numerics.h"
+#include "bounds/box.h"
 #include "hierarchy/forest.h"
-#include "shared/aabb.h"
+
 
 #if !defined(KEY) || !defined(AXIS_BITS) || !defined(FOREST)
 #error "define KEY, AXIS_BITS and FOREST"
 #endif
 
-/// Moves bit i of the AXIS_BITS low bits of `x` to bit 3 i, by halving distances.
+/// Moves bit i of the AXIS_BITS low bits of each lane to bit 3 i, by halving distances.
 #if AXIS_BITS <= 10
-inline KEY spread(uint bits) {
-    KEY x = bits;
+inline uint4 spread(uint4 x) {
     x = (x | (x << 16)) & 0x030000ffu;
     x = (x | (x << 8)) & 0x0300f00fu;
     x = (x | (x << 4)) & 0x030c30c3u;
-    x = (x | (x << 2)) & 0x09249249u;
-    return x;
+    return (x | (x << 2)) & 0x09249249u;
 }
 #else
-inline KEY spread(uint bits) {
-    KEY x = bits;
+inline ulong4 spread(ulong4 x) {
     x = (x | (x << 32)) & 0x001f00000000fffful;
     x = (x | (x << 16)) & 0x001f0000ff0000fful;
     x = (x | (x << 8)) & 0x100f00f00f00f00ful;
     x = (x | (x << 4)) & 0x10c30c30c30c30c3ul;
-    x = (x | (x << 2)) & 0x1249249249249249ul;
-    return x;
+    return (x | (x << 2)) & 0x1249249249249249ul;
 }
 #endif
 
 /// Maps positions of one tree to cells: its lower corner, and cells per length in the cube of its largest extent (0 for
-/// a point, so that all lands in cell 0). The product rounds alike at every power-of-two scale.
+/// a point, so that all lands in cell 0). The product rounds alike at every power-of-two scale. Lane 3 is not used.
 typedef struct Grid {
-    float3 low;
+    float4 low;
     float zoom; ///< A power of two that makes the cube large enough for cells per length to be a float.
     float scale;
 } Grid;
 
 inline Grid grid_of(global const Aabb* bounds) {
-    const float3 low = vload3(0, bounds->min);
-    const float3 extent = vload3(0, bounds->max) - low;
+    const Box box = load_box(bounds);
+    const float3 extent = extent_of(box);
     const float side = max(max(extent.x, extent.y), extent.z);
     const float zoom = side < 0x1p-90f ? 0x1p90f : 1.0f;
-    const Grid grid = {low, zoom, side > 0.0f ? (float)(1 << AXIS_BITS) / (side * zoom) : 0.0f};
+    const Grid grid = {box.a, zoom, side > 0.0f ? (float)(1 << AXIS_BITS) / (side * zoom) : 0.0f};
     return grid;
 }
 
-inline KEY code(global const Aabb* box, Grid grid) {
-    const float3 center = 0.5f * vload3(0, box->min) + 0.5f * vload3(0, box->max);
+inline KEY code(Box box, Grid grid) {
+    const float4 center = 0.5f * box.a + 0.5f * (float4)(box.a.w, box.b, box.a.w);
     // Halves of subnormal numbers round, so a centre may lie below the corner.
-    const float3 place =
-        clamp((center - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
-    const KEY x = spread((uint)place.x);
-    const KEY y = spread((uint)place.y);
-    const KEY z = spread((uint)place.z);
-    return (x << 2) | (y << 1) | z;
+    const float4 place = clamp((center - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
+#if AXIS_BITS <= 10
+    const uint4 cells = spread(convert_uint4(place));
+#else
+    const ulong4 cells = spread(convert_ulong4(place));
+#endif
+    return ((KEY)cells.x << 2) | ((KEY)cells.y << 1) | (KEY)cells.z;
 }
 
 /// keys[i] and order[i] = i, the pairs to sort, for the primitives of one slice. Trees are not empty, so stepping to the next tree is one step.
@@ -83,9 +81,9 @@ void morton_keys(global const Aabb* boxes, global const uint* offsets, global co
         }
         order[i] = i;
 #if FOREST
-        keys[i] = code(boxes + i, grid) | ((KEY)tree << (3 * AXIS_BITS));
+        keys[i] = code(load_box(boxes + i), grid) | ((KEY)tree << (3 * AXIS_BITS));
 #else
-        keys[i] = code(boxes + i, grid);
+        keys[i] = code(load_box(boxes + i), grid);
 #endif
     }
 }

@@ -2,7 +2,7 @@
 // Axis-aligned boxes of all nodes, bottom-up (dissertation 3.3.4).
 // compile:
 #include "runtime/numerics.h"
-#include "shared/aabb.h"
+#include "bounds/box.h"
 
 typedef struct Volumes {
     global const Aabb* boxes;
@@ -13,20 +13,12 @@ typedef struct Volumes {
 #define CLIMB_DATA const Volumes*
 
 inline void visit_leaf(const Volumes* v, uint position, uint count) {
-    v->volumes[count + position] = v->boxes[v->order[position]];
+    store_box(load_box(v->boxes + v->order[position]), v->volumes + count + position);
 }
 
-/// Hull of the two children; exact, since min and max do not round.
 inline void visit_node(const Volumes* v, uint node, uint2 children, uint count) {
     (void)count;
-    const Aabb a = v->volumes[children.x];
-    const Aabb b = v->volumes[children.y];
-    Aabb hull;
-    for (int k = 0; k < 3; ++k) {
-        hull.min[k] = a.min[k] < b.min[k] ? a.min[k] : b.min[k];
-        hull.max[k] = a.max[k] > b.max[k] ? a.max[k] : b.max[k];
-    }
-    v->volumes[node] = hull;
+    store_box(hull(load_box(v->volumes + children.x), load_box(v->volumes + children.y)), v->volumes + node);
 }
 
 #include "hierarchy/climb.h"
