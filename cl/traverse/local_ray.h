@@ -2,7 +2,7 @@
 // A ray in one space (world, or the object space of an instance), with what the box test needs worked out once.
 #ifndef BOXWOOD_TRAVERSE_LOCAL_RAY_H
 #define BOXWOOD_TRAVERSE_LOCAL_RAY_H
-#include "runtime/inline.h"
+#include "runtime/lanes.h"
 #include "runtime/numerics.h"
 #include "shared/instance.h"
 #include "shared/ray.h"
@@ -23,26 +23,19 @@ typedef struct LocalRay {
 // that is harmless, as t_min >= 0; a negative exit distance moves further down, which is a miss either way.
 #define BOX_SLACK 0x1p-20f
 
-/// One component. A zero direction gives +infinity for both: its slab then never limits the ray inside (-inf to +inf,
-/// and 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside. A direction so small that its
+/// A zero direction gives infinity for both inverses: its slab then never limits the ray inside (-inf to +inf, and
+/// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside. A direction so small that its
 /// reciprocal overflows has a finite, smaller one for entering.
-INLINE float near_inverse_of(float direction) {
-    const float inverse = clamp(1.0f / direction * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
-    return direction == 0.0f ? INFINITY : inverse;
-}
-
-INLINE float far_inverse_of(float direction) {
-    return direction == 0.0f ? INFINITY : 1.0f / direction * (1.0f + BOX_SLACK);
-}
-
 INLINE LocalRay make_local_ray(float3 origin, float3 direction) {
+    const float3 inverse = -1.0f / direction;
+    const float3 near_inverse = clamp(inverse * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
+    const float3 far_inverse = inverse * (1.0f + BOX_SLACK);
+    const float3 parallel = (float3)(-INFINITY);
     LocalRay ray;
     ray.origin = origin;
     ray.direction = direction;
-    ray.minus_near_inverse =
-        -(float3)(near_inverse_of(direction.x), near_inverse_of(direction.y), near_inverse_of(direction.z));
-    ray.minus_far_inverse =
-        -(float3)(far_inverse_of(direction.x), far_inverse_of(direction.y), far_inverse_of(direction.z));
+    ray.minus_near_inverse = direction == 0.0f ? parallel : near_inverse;
+    ray.minus_far_inverse = direction == 0.0f ? parallel : far_inverse;
     return ray;
 }
 
@@ -71,18 +64,18 @@ INLINE LocalRay to_object_space(const LocalRay* ray, global const InstanceRecord
 INLINE bool is_valid_ray(float4 origin, float4 direction) {
     const float t_min = origin.w;
     const float t_max = direction.w;
-    const bool finite = all(isfinite(origin)) && all(isfinite(direction.xyz));
-    const bool moving = any(direction.xyz != (float3)(0.0f));
-    return finite && moving && t_min >= 0.0f && t_min <= t_max;
+    const float4 without_t_max = (float4)(direction.xyz, 0.0f);
+    const uint finite = lanes4((fabs(origin) <= FLT_MAX) & (fabs(without_t_max) <= FLT_MAX));
+    const uint moving = lanes4(without_t_max != 0.0f);
+    return finite == 15 && moving != 0 && t_min >= 0.0f && t_min <= t_max;
 }
 
-/// A power of two that brings the largest component of the direction to about 1 (to [2^-23, 4) at the extremes of
-/// float), so that no product in traversal over- or underflows because a direction is long or short. Distances along the
-/// scaled ray are exactly t / scale.
-INLINE float direction_scale(float3 direction) {
-    const float largest = fmax(fabs(direction.x), fmax(fabs(direction.y), fabs(direction.z)));
-    const uint exponent = clamp(as_uint(largest) >> 23, 1u, 253u);
-    return as_float((254u - exponent) << 23);
+/// The exponent, as float stores it, of the power of two that the direction is divided by. That brings its largest
+/// component to about 1 (to [2^-23, 4) at the extremes of float), so that no product in traversal over- or underflows
+/// because a direction is long or short. Distances along the scaled ray are t times the same power, exactly.
+INLINE uint direction_exponent(float4 direction) {
+    const float largest = max(fabs(direction.x), max(fabs(direction.y), fabs(direction.z)));
+    return clamp(as_uint(largest) >> 23, 1u, 253u);
 }
 
 #endif

@@ -63,9 +63,10 @@ INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Wa
     walk->statistics.volumes = 0;
     walk->statistics.primitives = 0;
 #endif
-    *scale = direction_scale(direction.xyz);
+    const uint exponent = direction_exponent(direction);
+    const float to_scaled = as_float(exponent << 23);
+    *scale = as_float((254u - exponent) << 23);
     if (!is_valid_ray(origin, direction)) return false;
-    const float to_scaled = 1.0f / *scale;
     *ray = make_local_ray(origin.xyz, direction.xyz * *scale);
     walk->t_min = origin.w * to_scaled;
     // No hit at an infinite distance, in either unit: that is how a miss is written.
