@@ -16,12 +16,16 @@ namespace boxwood {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
 /// Everything a build makes on its way to the tree.
 struct Parts {
     Forest bottom;
     Forest top; ///< Two levels only, like the next two.
     std::vector<InstanceRecord> instances;
     Buffer<Aabb> instance_boxes;
+    Clock::time_point uploaded; ///< When the geometry was on the device.
 };
 
 std::vector<std::uint32_t> triangle_offsets(const Scene& scene) {
@@ -101,6 +105,7 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     check_capacity(device, tree.layout, placed.triangle_count(), placed.vertex_count(),
                    two_levels ? placed.instances.size() : 0);
     const Geometry geometry = upload(device, placed);
+    parts.uploaded = Clock::now();
     const std::vector<std::uint32_t> offsets = triangle_offsets(placed);
     {
         const Buffer<Aabb> boxes = triangle_boxes(device, geometry);
@@ -144,7 +149,7 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
     device.take_profile();
     device.reset_peak();
     const double compiled = device.compile_ms();
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
 
     Parts parts;
     Tree tree;
@@ -157,9 +162,9 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
     if (needs.instance_lookup) tree.first_triangles = upload(device, first_triangles(scene), "first triangles");
 
     if (report) {
-        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
         report->compile_ms = device.compile_ms() - compiled;
-        report->total_ms = elapsed.count() - report->compile_ms;
+        report->total_ms = Milliseconds(Clock::now() - start).count() - report->compile_ms;
+        report->upload_ms = Milliseconds(parts.uploaded - start).count();
         report->profile = device.take_profile();
         report->peak_device_bytes = device.peak_bytes();
         fill_quality(device, tree, parts, *report);

@@ -26,11 +26,11 @@ BinaryLayout collapse(Device& device, const Topology& topology, BufferView<const
     const auto count = static_cast<std::uint32_t>(topology.size());
     const Defines defines{{"TRIANGLE_LEAVES", geometry ? "1" : "0"}};
     BinaryLayout layout;
-    layout.nodes = make_buffer<BinaryNode>(device, count, "binary nodes");
+    layout.nodes = make_scratch<BinaryNode>(device, count, "binary nodes");
     launch(device, {"hierarchy/collapse_binary.cl", "binary_nodes", defines}, "binary nodes", count, volumes,
            topology.children, topology.parents, topology.order, layout.nodes, count);
     if (geometry) {
-        layout.triangles = make_buffer<Triangle>(device, count, "triangle records");
+        layout.triangles = make_scratch<Triangle>(device, count, "triangle records");
         const Slices slices = cut(device, count);
         launch(device, {"hierarchy/collapse_binary.cl", "triangle_records", defines}, "triangle records", slices.slices,
                topology.order, topology.offsets, geometry->positions, geometry->triangles, layout.triangles,

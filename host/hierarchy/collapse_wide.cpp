@@ -130,8 +130,8 @@ WideLayout collapse(Device& device, const Topology& topology, BufferView<const A
         leaves += level.leaves;
     }
     WideLayout layout;
-    layout.nodes = make_buffer<Wide8Node>(device, nodes, "wide nodes");
-    if (geometry) layout.blocks = make_buffer<Triangle4>(device, leaves, "triangle blocks");
+    layout.nodes = make_scratch<Wide8Node>(device, nodes, "wide nodes");
+    if (geometry) layout.blocks = make_scratch<Triangle4>(device, leaves, "triangle blocks");
     layout.depth = static_cast<std::uint32_t>(levels.size());
     write_levels(c, levels, layout);
     return layout;
