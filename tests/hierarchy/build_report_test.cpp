@@ -134,6 +134,15 @@ TEST_CASE("build report: every stage has its time, memory is counted") {
     CHECK(report.peak_device_bytes >= test_device().held_bytes());
 }
 
+TEST_CASE("build report: memory is that of this build alone") {
+    Device& device = test_device();
+    BuildReport large, small;
+    build(device, scene_of({random_mesh(20000, 1.0f, 0.01f, 6)}), {}, &large);
+    device.trim();
+    build(device, scene_of({random_mesh(100, 1.0f, 0.01f, 7)}), {}, &small);
+    CHECK(small.peak_device_bytes < large.peak_device_bytes / 2);
+}
+
 TEST_CASE("build: what cannot fit is refused before any work, with both numbers") {
     Device& device = test_device();
     // 2^17 triangles placed 2^14 times, in one level: 2^31 primitives.
@@ -155,7 +164,7 @@ TEST_CASE("build: what cannot fit is refused before any work, with both numbers"
     CHECK(device.held_bytes() == held);
 }
 
-TEST_CASE("capacity: the largest buffer and the memory of the device are limits, for both layouts") {
+TEST_CASE("capacity: the largest buffer is a limit, for both layouts") {
     Device& device = test_device();
     const std::uint64_t largest = device.info().largest_buffer_bytes;
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
@@ -175,4 +184,27 @@ TEST_CASE("capacity: the largest buffer and the memory of the device are limits,
         CHECK(refused(std::uint64_t(1) << 40, 3, 0));
         CHECK(refused(10, 3, std::uint64_t(1) << 30));
     }
+}
+
+TEST_CASE("capacity: what the device holds already is not available") {
+    if (small_sizes()) return; // Oclgrind takes pages for buffers that are never touched
+    Device device(std::to_string(test_device().info().index));
+    const std::uint64_t largest = device.info().largest_buffer_bytes, memory = device.info().global_bytes;
+    std::vector<Buffer<char>> held;
+    const std::size_t bytes = std::min<std::uint64_t>(largest, 0x7fffffff);
+    while (device.held_bytes() + bytes <= memory) held.push_back(make_buffer<char>(device, bytes, "filler"));
+    const std::uint64_t left = memory - device.held_bytes();
+    for (const Layout layout : {Layout::binary, Layout::wide8}) {
+        // Each array fits a buffer; positions and boxes of nodes together do not fit what is left.
+        const std::uint64_t vertices = bytes / 12, triangles = bytes / 64;
+        try {
+            check_capacity(device, layout, triangles, vertices, 0);
+            FAIL("did not throw");
+        } catch (const CapacityError& error) {
+            CHECK(error.available == left);
+            CHECK(error.asked >= 12 * vertices + 48 * triangles);
+        }
+    }
+    held.clear();
+    CHECK_NOTHROW(check_capacity(device, Layout::wide8, 1000, 3000, 0));
 }
