@@ -2,6 +2,7 @@
 // A box in registers, read and written as two vectors (six packed floats, nothing beyond them).
 #ifndef BOXWOOD_BOUNDS_BOX_H
 #define BOXWOOD_BOUNDS_BOX_H
+#include "runtime/numerics.h"
 #include "shared/aabb.h"
 
 typedef struct Box {
@@ -23,9 +24,9 @@ inline void store_box(Box box, global Aabb* target) {
 
 /// Smallest box around both; exact, since min and max do not round.
 inline Box hull(Box p, Box q) {
-    const float4 low = p.a < q.a ? p.a : q.a;
-    const float high = p.a.w > q.a.w ? p.a.w : q.a.w;
-    const Box result = {(float4)(low.xyz, high), p.b > q.b ? p.b : q.b};
+    const float4 low = LESSER(p.a, q.a);
+    const float high = GREATER(p.a.w, q.a.w);
+    const Box result = {(float4)(low.xyz, high), GREATER(p.b, q.b)};
     return result;
 }
 

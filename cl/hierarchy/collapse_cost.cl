@@ -64,11 +64,9 @@ inline float8 child_costs(const Costs* c, uint child, float weight, uint count) 
 inline void try_share(float left, float8 right, int s, float8* best, int8* share) {
     const float8 cost = left + right;
     const int8 better = cost < *best;
-    *best = better ? cost : *best;
-    *share = better ? (int8)(s) : *share;
+    *best = select(*best, cost, better);
+    *share = select(*share, (int8)(s), better);
 }
-
-inline float8 lesser(float8 a, float8 b) { return a < b ? a : b; }
 
 /// Costs and choices of a node from those of its children. Lane j - 1 of the work is for j boxes.
 inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
@@ -93,12 +91,12 @@ inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
     // Lane 0: the node as one box, a wide node of its own. Lane j - 1: never dearer than with fewer boxes.
     const float8 cost = (float8)(NODE_COST + best.s7, best.s1, best.s2, best.s3, best.s4, best.s5, best.s6, none);
     float8 fewer = (float8)(none, cost.s0, cost.s1, cost.s2, cost.s3, cost.s4, cost.s5, cost.s6);
-    fewer = lesser(fewer, (float8)(none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5, fewer.s6));
-    fewer = lesser(fewer, (float8)(none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5));
-    fewer = lesser(fewer, (float8)(none, none, none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3));
-    vstore8(lesser(cost, fewer), node, c->costs);
+    fewer = LESSER(fewer, (float8)(none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5, fewer.s6));
+    fewer = LESSER(fewer, (float8)(none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3, fewer.s4, fewer.s5));
+    fewer = LESSER(fewer, (float8)(none, none, none, none, fewer.s0, fewer.s1, fewer.s2, fewer.s3));
+    vstore8(LESSER(cost, fewer), node, c->costs);
 
-    const int8 kept = cost < fewer ? share : (int8)(0);
+    const int8 kept = (cost < fewer) & share;
     const int8 bits = kept << (int8)(0, 0, 3, 6, 9, 12, 15, 0);
     c->shares[node] = (uint)(bits.s1 | bits.s2 | bits.s3 | bits.s4 | bits.s5 | bits.s6) | (uint)share.s7 << 18;
 }

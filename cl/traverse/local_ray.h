@@ -34,8 +34,8 @@ INLINE LocalRay make_local_ray(float3 origin, float3 direction) {
     LocalRay ray;
     ray.origin = origin;
     ray.direction = direction;
-    ray.minus_near_inverse = direction == 0.0f ? parallel : near_inverse;
-    ray.minus_far_inverse = direction == 0.0f ? parallel : far_inverse;
+    ray.minus_near_inverse = select(near_inverse, parallel, direction == 0.0f);
+    ray.minus_far_inverse = select(far_inverse, parallel, direction == 0.0f);
     return ray;
 }
 

@@ -8,8 +8,6 @@
 #include "traverse/local_ray.h"
 
 // The operand order matters: when `candidate` is NaN (0 * inf: a ray in the plane of a face) the running value stays.
-#define LATER(candidate, running) ((candidate) > (running) ? (candidate) : (running))
-#define EARLIER(candidate, running) ((candidate) < (running) ? (candidate) : (running))
 
 /// Entry distance of one axis: `planes` are the low faces when the direction is not negative, else the high ones.
 #define ENTRY(planes, axis) ((ray->origin.axis - (planes)) * ray->minus_near_inverse.axis)
@@ -26,12 +24,12 @@ INLINE bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, fl
     const float exit_x = EXIT(down_x ? box->min[0] : box->max[0], x);
     const float exit_y = EXIT(down_y ? box->min[1] : box->max[1], y);
     const float exit_z = EXIT(down_z ? box->min[2] : box->max[2], z);
-    float first = LATER(entry_x, t_min);
-    first = LATER(entry_y, first);
-    first = LATER(entry_z, first);
-    float last = EARLIER(exit_x, t_max);
-    last = EARLIER(exit_y, last);
-    last = EARLIER(exit_z, last);
+    float first = GREATER(entry_x, t_min);
+    first = GREATER(entry_y, first);
+    first = GREATER(entry_z, first);
+    float last = LESSER(exit_x, t_max);
+    last = LESSER(exit_y, last);
+    last = LESSER(exit_z, last);
     *entry = first;
     return first <= last;
 }
@@ -51,13 +49,13 @@ INLINE uint ray_box8(const LocalRay* ray, global const Wide8Node* node, float t_
     const float8 exit_y = EXIT(rows[near_y ^ 1], y);
     const float8 exit_z = EXIT(rows[near_z ^ 1], z);
     float8 first = (float8)(t_min);
-    first = LATER(entry_x, first);
-    first = LATER(entry_y, first);
-    first = LATER(entry_z, first);
+    first = GREATER(entry_x, first);
+    first = GREATER(entry_y, first);
+    first = GREATER(entry_z, first);
     float8 last = (float8)(t_max);
-    last = EARLIER(exit_x, last);
-    last = EARLIER(exit_y, last);
-    last = EARLIER(exit_z, last);
+    last = LESSER(exit_x, last);
+    last = LESSER(exit_y, last);
+    last = LESSER(exit_z, last);
     *entry = first;
     return lanes8(first <= last);
 }

@@ -40,7 +40,7 @@ typedef struct Walk {
 INLINE void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint instance, Walk* walk) {
 #if STATISTICS
 #if LAYOUT == 8
-    const uint4 used = vload4(0, leaf->primitive) != BOXWOOD_NONE ? (uint4)(1) : (uint4)(0);
+    const int4 used = (vload4(0, leaf->primitive) != BOXWOOD_NONE) & 1;
     walk->statistics.primitives += used.x + used.y + used.z + used.w;
 #else
     walk->statistics.primitives += 1;
