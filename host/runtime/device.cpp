@@ -15,7 +15,12 @@ namespace boxwood {
 
 namespace {
 
+/// PoCL reads this when it starts its threads. Unpinned, they are woken on one core and share it for the first
+/// milliseconds, which halves the speed of short kernels. The user's own setting stands.
+void pin_pocl_threads() { setenv("POCL_AFFINITY", "1", 0); }
+
 std::vector<cl::Device> all_devices() {
+    pin_pocl_threads();
     std::vector<cl::Platform> platforms;
     std::vector<cl::Device> devices;
     try {
