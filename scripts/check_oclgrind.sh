@@ -14,8 +14,9 @@ log=$build/oclgrind.log
 BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --log "$log" \
     "$build/boxwood-tests" --no-intro --test-suite="$suites"
 
-handoff=$({ grep -rl --include='*.cl' 'runtime/handoff.h' cl tests || true; } |
-    xargs -r sed -nE 's/.*kernel .*void +([a-z0-9_]+) *\(.*/\1/p' | tr '\n' ' ')
+# climb.h hands off for the kernels that include it.
+handoff=$({ grep -rlE --include='*.cl' 'runtime/handoff.h|hierarchy/climb.h' cl tests || true; } |
+    xargs -r perl -0ne 'print "$1 " while /\bkernel\b[^;{]*?\bvoid\s+(\w+)\s*\(/g')
 
 # An entry of the log starts at the margin; the lines that explain it, "Kernel: NAME" first, are indented.
 awk -v handoff="$handoff" '
