@@ -11,7 +11,7 @@ suites=${2:-runtime,primitives,bounds,hierarchy,traverse,render}
 log=$build/oclgrind.log
 
 : >"$log"
-BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --log "$log" \
+BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --max-errors 1000000 --log "$log" \
     "$build/boxwood-tests" --no-intro --test-suite="$suites"
 
 # climb.h hands off for the kernels that include it.

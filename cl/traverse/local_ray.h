@@ -26,17 +26,15 @@ typedef struct LocalRay {
 /// A zero direction gives infinity for both inverses: its slab then never limits the ray inside (-inf to +inf, and
 /// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside. A direction so small that its
 /// reciprocal overflows has a finite, smaller one for entering.
-INLINE LocalRay make_local_ray(float3 origin, float3 direction) {
+INLINE void make_local_ray(float3 origin, float3 direction, LocalRay* ray) {
     const float3 inverse = -1.0f / direction;
     const float3 near_inverse = clamp(inverse * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
     const float3 far_inverse = inverse * (1.0f + BOX_SLACK);
     const float3 parallel = (float3)(-INFINITY);
-    LocalRay ray;
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.minus_near_inverse = select(near_inverse, parallel, direction == 0.0f);
-    ray.minus_far_inverse = select(far_inverse, parallel, direction == 0.0f);
-    return ray;
+    ray->origin = origin;
+    ray->direction = direction;
+    ray->minus_near_inverse = select(near_inverse, parallel, direction == 0.0f);
+    ray->minus_far_inverse = select(far_inverse, parallel, direction == 0.0f);
 }
 
 /// Row `row` of an affine map applied to a point.
@@ -52,12 +50,12 @@ INLINE float map_direction(global const float* matrix, uint row, float3 d) {
 }
 
 /// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space.
-INLINE LocalRay to_object_space(const LocalRay* ray, global const InstanceRecord* instance) {
+INLINE void to_object_space(const LocalRay* ray, global const InstanceRecord* instance, LocalRay* local_ray) {
     global const float* m = instance->to_object;
     const float3 p = ray->origin;
     const float3 d = ray->direction;
-    return make_local_ray((float3)(map_point(m, 0, p), map_point(m, 1, p), map_point(m, 2, p)),
-                          (float3)(map_direction(m, 0, d), map_direction(m, 1, d), map_direction(m, 2, d)));
+    make_local_ray((float3)(map_point(m, 0, p), map_point(m, 1, p), map_point(m, 2, p)),
+                   (float3)(map_direction(m, 0, d), map_direction(m, 1, d), map_direction(m, 2, d)), local_ray);
 }
 
 /// True when the ray is one that may hit something; see Ray.

@@ -39,7 +39,8 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
         while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, top, reference, walk, stack);
         if (reference != BOXWOOD_NONE) {
             const uint instance = reference & ~BOXWOOD_LEAF;
-            const LocalRay local_ray = to_object_space(ray, &instances[instance]);
+            LocalRay local_ray;
+            to_object_space(ray, &instances[instance], &local_ray);
             traverse_bottom(&local_ray, arrays, instances[instance].root, instance, walk, stack);
         }
         if (is_settled(walk)) return;
@@ -67,7 +68,7 @@ INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Wa
     const float to_scaled = as_float(exponent << 23);
     *scale = as_float((254u - exponent) << 23);
     if (!is_valid_ray(origin, direction)) return false;
-    *ray = make_local_ray(origin.xyz, direction.xyz * *scale);
+    make_local_ray(origin.xyz, direction.xyz * *scale, ray);
     walk->t_min = origin.w * to_scaled;
     // No hit at an infinite distance, in either unit: that is how a miss is written.
     walk->t_max = fmin(fmin(direction.w, FLT_MAX) * to_scaled, FLT_MAX);

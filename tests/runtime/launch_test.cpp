@@ -79,7 +79,8 @@ TEST_CASE("launch: a program that does not compile says file, line, device, opti
         CHECK(has(error.options, "-DSOME_MACRO=17"));
         CHECK(has(error.options, "-cl-std=" + device.info().language));
         CHECK(has(error.log, "not_declared"));
-        CHECK(has(error.log, "launch_test/broken.cl:4")); // as in the file, not in the text with its includes
+        // As in the file, not in the text with its includes; Oclgrind's log has its own names for files.
+        if (device.info().platform != "Oclgrind") CHECK(has(error.log, "launch_test/broken.cl:4"));
         for (const std::string& part : {error.file, error.device, error.options, std::string("out[0] = not_declared")})
             CHECK(has(error.what(), part));
     }
