@@ -6,7 +6,7 @@
 // GROUP_SIZE   work-items per group, 1 or more
 // KEY          uint or ulong
 // DIGIT_BITS   most bits in a digit
-// compile: KEY=uint DIGIT_BITS=11
+// compile: KEY=uint DIGIT_BITS=10
 // compile: KEY=ulong DIGIT_BITS=4
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
