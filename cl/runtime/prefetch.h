@@ -5,7 +5,7 @@
 #define BOXWOOD_RUNTIME_PREFETCH_H
 #include "runtime/inline.h"
 
-#if __has_builtin(__builtin_prefetch)
+#if __OPENCL_C_VERSION__ >= 300 && __has_builtin(__builtin_prefetch) // Oclgrind, which has 1.2, does not know it
 #define PREFETCH_LINE(place) __builtin_prefetch((const void*)(size_t)(place))
 #else
 #define PREFETCH_LINE(place) prefetch(place, 64)
