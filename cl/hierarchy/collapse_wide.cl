@@ -65,19 +65,11 @@ void root_sources(global const uint* offsets, global uint* sources, uint trees, 
     sources[tree] = single ? count + offsets[tree] : offsets[tree];
 }
 
-/// totals[0] = {inner children, leaves} of a level: the ends of its two scans.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void level_totals(global const uint* inner_starts, global const uint* leaf_starts, global uint2* totals,
-                  uint level_size) {
-    if (get_global_id(0) == 0) totals[0] = (uint2)(inner_starts[level_size], leaf_starts[level_size]);
-}
-
 /// For each wide node of one level: kids[8 w ..] = its children as binary nodes, leaves marked by BOXWOOD_LEAF;
-/// inner_counts[w], leaf_counts[w] = how many of each; the rest of kids is BOXWOOD_NONE.
+/// counts[w] = how many inner children, and leaves in the upper half; the rest of kids is BOXWOOD_NONE.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void choose_children(global const uint2* children, global const uint* shares, global const uint* sources,
-                     global uint* kids, global uint* inner_counts, global uint* leaf_counts, uint count,
-                     uint level_size, uint slice) {
+                     global uint* kids, global ulong* counts, uint count, uint level_size, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, level_size);
     for (uint w = begin; w < end; ++w) {
@@ -93,23 +85,22 @@ void choose_children(global const uint2* children, global const uint* shares, gl
             }
             kids[8 * (size_t)w + i] = kid;
         }
-        inner_counts[w] = found - leaves;
-        leaf_counts[w] = leaves;
+        counts[w] = ((ulong)leaves << 32) | (found - leaves);
     }
-    // One entry more, so that the scans end with the totals.
-    if (begin < level_size && end == level_size) inner_counts[end] = leaf_counts[end] = 0;
+    // One entry more, so that the scan ends with the totals.
+    if (begin < level_size && end == level_size) counts[end] = 0;
 }
 
 /// The children of one level in order: inner_sources is the next level, leaf_sources its leaves. The starts are the
-/// exclusive scans of the counts.
+/// exclusive scan of the counts.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void part_children(global const uint* kids, global const uint* inner_starts, global const uint* leaf_starts,
-                   global uint* inner_sources, global uint* leaf_sources, uint level_size, uint slice) {
+void part_children(global const uint* kids, global const ulong* starts, global uint* inner_sources,
+                   global uint* leaf_sources, uint level_size, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, level_size);
     if (begin >= end) return;
-    uint inner = inner_starts[begin];
-    uint leaf = leaf_starts[begin];
+    uint inner = (uint)starts[begin];
+    uint leaf = (uint)(starts[begin] >> 32);
     for (uint i = 8 * begin; i < 8 * end; ++i) {
         const uint kid = kids[i];
         if (kid == BOXWOOD_NONE) continue;
@@ -122,14 +113,14 @@ void part_children(global const uint* kids, global const uint* inner_starts, glo
 /// first_node + level_size, its triangle blocks from first_leaf.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void write_nodes(global const Aabb* volumes, global const uint* order, global const uint* kids,
-                 global const uint* inner_starts, global const uint* leaf_starts, global Wide8Node* nodes, uint count,
-                 uint first_node, uint first_leaf, uint level_size, uint slice) {
+                 global const ulong* starts, global Wide8Node* nodes, uint count, uint first_node, uint first_leaf,
+                 uint level_size, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, level_size);
     for (uint w = begin; w < end; ++w) {
         global Wide8Node* node = nodes + first_node + w;
-        uint inner = first_node + level_size + inner_starts[w];
-        uint leaf = first_leaf + leaf_starts[w];
+        uint inner = first_node + level_size + (uint)starts[w];
+        uint leaf = first_leaf + (uint)(starts[w] >> 32);
         uint found = 0;
         for (uint i = 0; i < 8; ++i) {
             const uint kid = kids[8 * (size_t)w + i];

@@ -14,9 +14,10 @@ namespace {
 struct Level {
     std::uint32_t size = 0;
     std::uint32_t leaves = 0;
-    Buffer<std::uint32_t> kids;         ///< 8 per node
-    Buffer<std::uint32_t> inner_starts; ///< Exclusive scans of how many inner children and leaves each node has;
-    Buffer<std::uint32_t> leaf_starts;  ///< one entry more than nodes, the last is the total.
+    Buffer<std::uint32_t> kids; ///< 8 per node
+    /// Exclusive scan of how many inner children and, in the upper half, leaves each node has; the last of size + 1
+    /// entries is the total.
+    Buffer<std::uint64_t> starts;
     Buffer<std::uint32_t> leaf_sources; ///< The leaves as binary nodes.
 };
 
@@ -63,37 +64,28 @@ Level choose_children(const Collapse& c, BufferView<const std::uint32_t> sources
     Level level;
     level.size = static_cast<std::uint32_t>(sources.size());
     level.kids = make_scratch<std::uint32_t>(c.device, 8 * sources.size(), "children of a level");
-    level.inner_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "inner children of a level");
-    level.leaf_starts = make_scratch<std::uint32_t>(c.device, sources.size() + 1, "leaves of a level");
+    level.starts = make_scratch<std::uint64_t>(c.device, sources.size() + 1, "children of a level");
     const Slices slices = cut(c.device, level.size);
     launch(c.device, c.kernel("choose_children"), "choose children", slices.slices, c.topology.children, c.shares,
-           sources, level.kids, level.inner_starts, level.leaf_starts, c.count, level.size, slices.length);
-    exclusive_scan<std::uint32_t>(c.device, level.inner_starts, Operator::sum, level.inner_starts);
-    exclusive_scan<std::uint32_t>(c.device, level.leaf_starts, Operator::sum, level.leaf_starts);
+           sources, level.kids, level.starts, c.count, level.size, slices.length);
+    exclusive_scan<std::uint64_t>(c.device, level.starts, Operator::sum, level.starts);
     return level;
 }
 
-/// Totals of a level: {inner children, leaves}. Waits.
-cl_uint2 totals(const Collapse& c, const Level& level, BufferView<cl_uint2> place) {
-    launch(c.device, c.kernel("level_totals"), "level totals", 1, level.inner_starts, level.leaf_starts, place,
-           level.size);
-    return download<cl_uint2>(c.device, place)[0];
-}
-
+/// Every level from the roots down. Waits once per level for the size of the next.
 std::vector<Level> choose_levels(const Collapse& c) {
-    const Buffer<cl_uint2> place = make_scratch<cl_uint2>(c.device, 1, "level totals");
     std::vector<Level> levels;
     Buffer<std::uint32_t> sources = roots(c);
     while (sources.size() > 0) {
         levels.push_back(choose_children(c, sources));
         Level& level = levels.back();
-        const cl_uint2 found = totals(c, level, place);
-        level.leaves = found.s[1];
+        const std::uint64_t totals = download_element(c.device, level.starts, level.size);
+        level.leaves = static_cast<std::uint32_t>(totals >> 32);
         level.leaf_sources = make_scratch<std::uint32_t>(c.device, level.leaves, "leaves of a level");
-        sources = make_scratch<std::uint32_t>(c.device, found.s[0], "sources of a level");
+        sources = make_scratch<std::uint32_t>(c.device, static_cast<std::uint32_t>(totals), "sources of a level");
         const Slices slices = cut(c.device, level.size);
-        launch(c.device, c.kernel("part_children"), "part children", slices.slices, level.kids, level.inner_starts,
-               level.leaf_starts, sources, level.leaf_sources, level.size, slices.length);
+        launch(c.device, c.kernel("part_children"), "part children", slices.slices, level.kids, level.starts, sources,
+               level.leaf_sources, level.size, slices.length);
     }
     return levels;
 }
@@ -103,8 +95,7 @@ void write_levels(const Collapse& c, const std::vector<Level>& levels, const Wid
     for (const Level& level : levels) {
         const Slices nodes = cut(c.device, level.size);
         launch(c.device, c.kernel("write_nodes"), "wide nodes", nodes.slices, c.volumes, c.topology.order, level.kids,
-               level.inner_starts, level.leaf_starts, layout.nodes, c.count, first_node, first_leaf, level.size,
-               nodes.length);
+               level.starts, layout.nodes, c.count, first_node, first_leaf, level.size, nodes.length);
         if (c.geometry) {
             const Slices leaves = cut(c.device, level.leaves);
             launch(c.device, c.kernel("write_blocks"), "triangle blocks", leaves.slices, level.leaf_sources,

@@ -35,9 +35,9 @@ void write(Device& device, cl_mem target, const void* source, std::size_t bytes)
           "clEnqueueWriteBuffer");
 }
 
-void read(Device& device, cl_mem source, void* target, std::size_t bytes) {
+void read(Device& device, cl_mem source, std::size_t offset, void* target, std::size_t bytes) {
     if (bytes == 0) return;
-    check(clEnqueueReadBuffer(device.state().queue(), source, CL_TRUE, 0, bytes, target, 0, nullptr, nullptr),
+    check(clEnqueueReadBuffer(device.state().queue(), source, CL_TRUE, offset, bytes, target, 0, nullptr, nullptr),
           "clEnqueueReadBuffer");
 }
 

@@ -37,7 +37,7 @@ private:
 std::unique_ptr<Memory> allocate(Device& device, std::size_t count, std::size_t element_bytes, const char* label,
                                  bool pooled);
 void write(Device& device, cl_mem target, const void* source, std::size_t bytes);
-void read(Device& device, cl_mem source, void* target, std::size_t bytes);
+void read(Device& device, cl_mem source, std::size_t offset, void* target, std::size_t bytes);
 void copy(Device& device, cl_mem source, cl_mem target, std::size_t bytes);
 void fill(Device& device, cl_mem target, const void* pattern, std::size_t pattern_bytes, std::size_t bytes);
 
@@ -115,13 +115,21 @@ void write(Device& device, std::span<const T> source, BufferView<T> target) {
 template <class T>
 std::vector<std::remove_const_t<T>> download(Device& device, BufferView<T> source) {
     std::vector<std::remove_const_t<T>> target(source.size());
-    detail::read(device, source.handle(), target.data(), target.size() * sizeof(T));
+    detail::read(device, source.handle(), 0, target.data(), target.size() * sizeof(T));
     return target;
 }
 
 template <class T>
 std::vector<T> download(Device& device, const Buffer<T>& source) {
     return download(device, source.view());
+}
+
+/// Waits for the work enqueued and returns one element, index < source.size().
+template <class T>
+T download_element(Device& device, const Buffer<T>& source, std::size_t index) {
+    T element;
+    detail::read(device, source.view().handle(), index * sizeof(T), &element, sizeof(T));
+    return element;
 }
 
 /// Enqueues a copy of all of `source` to the start of `target`, which has at least as many elements.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// boxwood-benchmark-build: what it costs to build many small meshes instead of one large one, all in the same launches.
+// Alternating runs in one process, medians.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "boxwood/build.hpp"
+#include "boxwood/procedural.hpp"
+
+namespace boxwood {
+namespace {
+
+/// The first `count` triangles of the seed's random scene as a mesh of their own.
+Mesh random_mesh(std::uint64_t count, std::uint64_t seed) {
+    return std::move(make_procedural("random", {.triangles = count, .seed = seed}).meshes.at(0));
+}
+
+/// `meshes` meshes of `triangles` random triangles each, placed once.
+Scene make_scene(std::uint32_t meshes, std::uint64_t triangles) {
+    Scene scene;
+    for (std::uint32_t i = 0; i < meshes; ++i) {
+        scene.meshes.push_back(random_mesh(triangles, i + 1));
+        scene.instances.push_back({.name = "", .mesh = i});
+    }
+    return scene;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Build from the uploaded triangles on, wall clock, in milliseconds.
+double build_ms(Device& device, const Scene& scene) {
+    BuildReport report;
+    build(device, scene, {.levels = Levels::two}, &report);
+    return report.total_ms - report.upload_ms;
+}
+
+int run() {
+    Device device;
+    const Scene many = make_scene(1000, 100), one = make_scene(1, 100'000);
+    std::vector<double> many_ms, one_ms;
+    for (int round = -1; round < 9; ++round) {
+        const double first = build_ms(device, many), second = build_ms(device, one);
+        if (round < 0) continue; // warms
+        many_ms.push_back(first);
+        one_ms.push_back(second);
+    }
+    std::printf("device: %s\n", device.info().name.c_str());
+    std::printf("1,000 meshes of 100 triangles  %8.2f ms\n", median(many_ms));
+    std::printf("1 mesh of 100,000 triangles    %8.2f ms\n", median(one_ms));
+    std::printf("ratio                          %8.2f\n", median(many_ms) / median(one_ms));
+    return 0;
+}
+
+} // namespace
+} // namespace boxwood
+
+int main() {
+    try {
+        return boxwood::run();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "boxwood-benchmark-build: %s\n", error.what());
+        return 1;
+    }
+}
