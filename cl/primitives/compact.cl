@@ -45,7 +45,15 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact(
     uint place = before[slice];
     const uint end = place + kept[slice];
     if (slice == slices - 1) total[0] = end;
-    for (uint i = slice * length; place < end; ++i) {
+    uint i = slice * length;
+    // With 8 kept elements to come there are as many to read, and 8 in a row need one test of the end.
+    for (; end - place >= 8; i += 8) {
+        for (uint k = 0; k < 8; ++k) {
+            STORE_ELEMENT(LOAD_ELEMENT(in, i + k), out, place);
+            place += flags[i + k] != 0u;
+        }
+    }
+    for (; place < end; ++i) {
         STORE_ELEMENT(LOAD_ELEMENT(in, i), out, place);
         place += flags[i] != 0u;
     }
