@@ -48,10 +48,19 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact(
     uint i = slice * length;
     // With 8 kept elements to come there are as many to read, and 8 in a row need one test of the end.
     for (; end - place >= 8; i += 8) {
-        for (uint k = 0; k < 8; ++k) {
-            STORE_ELEMENT(LOAD_ELEMENT(in, i + k), out, place);
-            place += flags[i + k] != 0u;
-        }
+        const int8 steps = vload8(0, flags + i) != 0u; // -1 where an element is kept
+#define MOVE(k)                                        \
+    STORE_ELEMENT(LOAD_ELEMENT(in, i + k), out, place); \
+    place -= steps.s##k
+        MOVE(0);
+        MOVE(1);
+        MOVE(2);
+        MOVE(3);
+        MOVE(4);
+        MOVE(5);
+        MOVE(6);
+        MOVE(7);
+#undef MOVE
     }
     for (; place < end; ++i) {
         STORE_ELEMENT(LOAD_ELEMENT(in, i), out, place);
