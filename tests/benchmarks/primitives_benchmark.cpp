@@ -305,8 +305,6 @@ int run(int argc, char** argv) {
 } // namespace boxwood
 
 int main(int argc, char** argv) {
-    // PoCL's threads stay on a core each; otherwise the system often starts both on one. Other devices ignore it.
-    setenv("POCL_AFFINITY", "1", 0);
     try {
         return boxwood::run(argc, argv);
     } catch (const std::exception& error) {
