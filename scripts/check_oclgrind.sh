@@ -15,6 +15,7 @@ BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --max-errors 10000
     "$build/boxwood-tests" --no-intro --test-suite="$suites"
 
 # climb.h hands off for the kernels that include it.
+# shellcheck disable=SC2016 # $1 is Perl's
 handoff=$({ grep -rlE --include='*.cl' 'runtime/handoff.h|hierarchy/climb.h' cl tests || true; } |
     xargs -r perl -0ne 'print "$1 " while /\bkernel\b[^;{]*?\bvoid\s+(\w+)\s*\(/g')
 

@@ -19,8 +19,8 @@ struct BuildOptions {
 
 /// What a build measured.
 struct BuildReport {
-    Profile profile;       ///< Stages: bounds, morton, sort, hierarchy, volumes, collapse, top_level.
-    double total_ms = 0.0; ///< Wall clock of the whole build, uploads included, compilation not.
+    Profile profile;        ///< Stages: bounds, morton, sort, hierarchy, volumes, collapse, top_level.
+    double total_ms = 0.0;  ///< Wall clock of the whole build, uploads included, compilation not.
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
     std::uint64_t peak_device_bytes = 0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The box tests on arrays of rays and boxes. Macros: PORTABLE_LANES.
+// compile: PORTABLE_LANES=0
+// compile: PORTABLE_LANES=1
 #include "shared/ray.h"
 #include "traverse/ray_box.h"
 
