@@ -25,8 +25,8 @@ struct BinaryLayout {
     std::uint32_t depth = 0;
 };
 
-/// Collapses binary trees over triangles to wide nodes and leaves of up to four triangles at least expected cost
-/// (Ylitie et al. 2017, section 3.1). One pass for the costs, then a few launches per level of the result; waits once
+/// Collapses binary trees over triangles to wide nodes at least expected cost (Ylitie et al. 2017, section 3.1). Each
+/// subtree of up to four triangles is one leaf: a block costs the same however many of its slots are filled. One pass for the costs, then a few launches per level of the result; waits once
 /// per level for its size. `volumes` as from aabb_volumes. Throws CapacityError when the result does not fit. O(n).
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                          const Geometry& geometry);
