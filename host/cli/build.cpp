@@ -47,7 +47,7 @@ void run(const Arguments& arguments) {
     save_report(arguments.report, report);
     progress.clear();
     if (!arguments.common.quiet) print_summary(arguments, input, prepared);
-    if (arguments.common.profile) print_profile(prepared.report->profile);
+    if (arguments.common.profile) print_profile(device, prepared);
 }
 
 } // namespace

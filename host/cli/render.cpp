@@ -83,12 +83,7 @@ void run(const Arguments& arguments) {
         std::cout << arguments.output.string() << ": " << options.width << " x " << options.height << ", "
                   << image.channels.size() << " channels, camera \"" << camera.name << "\", " << std::fixed
                   << std::setprecision(1) << ms << " ms; preview " << arguments.preview().string() << '\n';
-    if (arguments.common.profile) {
-        Profile profile = prepared.report ? prepared.report->profile : Profile{};
-        const Profile rest = device.take_profile();
-        profile.passes.insert(profile.passes.end(), rest.passes.begin(), rest.passes.end());
-        print_profile(profile);
-    }
+    if (arguments.common.profile) print_profile(device, prepared);
 }
 
 } // namespace

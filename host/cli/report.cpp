@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "boxwood/profile.hpp"
 #include "boxwood/requirements.hpp"
 #include "io/atomic_file.hpp"
 
@@ -85,7 +86,11 @@ void save_report(const std::filesystem::path& file, const Json& report) {
     output.commit();
 }
 
-void print_profile(const Profile& profile) {
+void print_profile(Device& device, const Prepared& prepared) {
+    Profile profile = prepared.report ? prepared.report->profile : Profile{};
+    const Profile rest = device.take_profile();
+    profile.passes.insert(profile.passes.end(), rest.passes.begin(), rest.passes.end());
+
     std::size_t stage_width = 5, label_width = 4;
     for (const PassTime& pass : profile.passes) {
         stage_width = std::max(stage_width, pass.stage.size());

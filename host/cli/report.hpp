@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/device.hpp"
-#include "boxwood/profile.hpp"
 #include "cli/input.hpp"
 
 namespace boxwood::cli {
@@ -26,8 +25,8 @@ Json scene_report(const Input& input);
 /// Writes the report, indented; nothing for an empty path. Throws InputError.
 void save_report(const std::filesystem::path& file, const Json& report);
 
-/// Prints the device times as a table on standard output.
-void print_profile(const Profile& profile);
+/// Prints the device times of the build, if there was one, and of all since as a table on standard output. Waits.
+void print_profile(Device& device, const Prepared& prepared);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);

@@ -191,12 +191,7 @@ void run(const Arguments& arguments) {
     save_report(arguments.report, report);
     progress.clear();
     if (!arguments.common.quiet) print_summary(arguments, result);
-    if (arguments.common.profile) {
-        Profile profile = prepared.report ? prepared.report->profile : Profile{};
-        const Profile rest = device.take_profile();
-        profile.passes.insert(profile.passes.end(), rest.passes.begin(), rest.passes.end());
-        print_profile(profile);
-    }
+    if (arguments.common.profile) print_profile(device, prepared);
 }
 
 } // namespace

@@ -58,7 +58,7 @@ Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vec
     const std::size_t trees = offsets.size() - 1;
     const KeyFormat format = key_format(morton, trees);
     Buffer<std::uint32_t> starts = upload(device, offsets, "offsets of trees");
-    // The device's own sort is faster on short keys; a forest keeps the tree in the upper half of a long one.
+    // Short keys sort faster; those of a forest need room for the tree above the code.
     if (trees == 1 && format.key_bits <= 32)
         return build_with_keys<std::uint32_t>(device, boxes, std::move(starts), format, stage);
     return build_with_keys<std::uint64_t>(device, boxes, std::move(starts), format, stage);

@@ -82,7 +82,7 @@ void check_scene(const Scene& scene) {
             // Flattened, the largest scenes do not fit one buffer of some devices.
             REQUIRE(kind.levels == Levels::one);
             REQUIRE(triangles > 10'000'000);
-            MESSAGE(error.what() << ": asked " << error.asked << ", available " << error.available);
+            MESSAGE(std::string(error.what()) << ": asked " << error.asked << ", available " << error.available);
             continue;
         }
         if (kind.levels == Levels::one && !of_one_level) {
@@ -125,7 +125,7 @@ TEST_CASE("real scenes: closest hits equal brute force, any hits agree") {
         try {
             scene = load_gltf(file);
         } catch (const InputError& error) {
-            MESSAGE("refused: " << error.what());
+            MESSAGE("refused: " << std::string(error.what()));
             continue;
         }
         if (!scene.instances.empty()) check_scene(scene);
