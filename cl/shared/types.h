@@ -22,4 +22,7 @@
 // Set in a node's child reference when the child is a leaf; the other bits are then a leaf index.
 #define BOXWOOD_LEAF 0x80000000u
 
+// Set in a child reference of an OrientedNode when the child's volume is axis-aligned.
+#define BOXWOOD_ALIGNED 0x40000000u
+
 #endif

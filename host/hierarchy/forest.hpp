@@ -8,6 +8,7 @@
 #include "boxwood/morton.hpp"
 #include "boxwood/topology.hpp"
 #include "shared/aabb.h"
+#include "shared/obb.h"
 
 namespace boxwood {
 
@@ -16,6 +17,7 @@ struct Forest {
     Topology topology;
     Buffer<Aabb> tree_bounds; ///< One box per tree.
     Buffer<Aabb> volumes;     ///< As from aabb_volumes.
+    Buffer<Obb> boxes;        ///< As from obb_volumes; empty without oriented boxes.
 };
 
 /// Builds one linear BVH per range [offsets[t], offsets[t + 1]) of `boxes`, all in the same launches (dissertation 3.3,

@@ -7,6 +7,7 @@
 
 #include "boxwood/error.hpp"
 #include "hierarchy/tree_walker.hpp"
+#include "runtime/words.hpp"
 
 namespace boxwood {
 
@@ -14,25 +15,9 @@ namespace {
 
 using namespace tree_check;
 
-constexpr std::array<std::pair<std::string_view, Layout>, 2> layouts = {
-    {{"binary", Layout::binary}, {"wide8", Layout::wide8}}};
-constexpr std::array<std::pair<std::string_view, Levels>, 3> level_choices = {
-    {{"auto", Levels::automatic}, {"one", Levels::one}, {"two", Levels::two}}};
-
-template <class Table, class Value>
-std::string_view word_of(const Table& table, Value value) {
-    const auto found = std::ranges::find(table, value, [](const auto& entry) { return entry.second; });
-    return found == table.end() ? std::string_view("unknown") : found->first;
-}
-
-template <class Table>
-auto value_of(const Table& table, std::string_view option, std::string_view word) {
-    const auto found = std::ranges::find(table, word, [](const auto& entry) { return entry.first; });
-    if (found != table.end()) return found->second;
-    std::string words;
-    for (const auto& entry : table) words.append(words.empty() ? "" : ", ").append(entry.first);
-    throw InputError(std::string(option), std::string(word), "unknown word; use one of " + words);
-}
+constexpr Words<Layout, 3> layouts = {
+    {{"auto", Layout::automatic}, {"binary", Layout::binary}, {"wide8", Layout::wide8}}};
+constexpr Words<Levels, 3> level_choices = {{{"auto", Levels::automatic}, {"one", Levels::one}, {"two", Levels::two}}};
 
 /// The primitives that one tree must hold, `count` from `first` in the marks, each in exactly one leaf.
 struct PrimitiveSet {

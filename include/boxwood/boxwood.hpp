@@ -2,6 +2,7 @@
 // Everything public.
 #pragma once
 
+#include "boxwood/bounds.hpp"
 #include "boxwood/buffer.hpp"
 #include "boxwood/build.hpp"
 #include "boxwood/bxw.hpp"
@@ -15,6 +16,7 @@
 #include "boxwood/image.hpp"
 #include "boxwood/lbvh.hpp"
 #include "boxwood/morton.hpp"
+#include "boxwood/obb.hpp"
 #include "boxwood/operator.hpp"
 #include "boxwood/primitives.hpp"
 #include "boxwood/procedural.hpp"
@@ -32,4 +34,5 @@
 #include "boxwood/trace.hpp"
 #include "boxwood/tree.hpp"
 #include "boxwood/tree_image.hpp"
+#include "boxwood/update.hpp"
 #include "boxwood/volumes.hpp"

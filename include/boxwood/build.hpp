@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "boxwood/bounds.hpp"
 #include "boxwood/device.hpp"
 #include "boxwood/morton.hpp"
 #include "boxwood/scene.hpp"
@@ -13,8 +14,16 @@ namespace boxwood {
 /// How to build a tree.
 struct BuildOptions {
     Levels levels = Levels::automatic; ///< automatic: two when a mesh is placed more than once, else one.
-    Layout layout = Layout::wide8;
+    Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
     MortonBits morton = MortonBits::bits30;
+    BoundsOptions bounds; ///< Oriented boxes need the binary layout.
+};
+
+/// Sums over the boxes of all binary nodes of one level, leaves included.
+struct LevelQuality {
+    double sum_volume = 0.0;
+    double sum_area = 0.0;
+    double obb_smaller_fraction = 0.0; ///< Share of the nodes that do not keep their AABB.
 };
 
 /// What a build measured.
@@ -24,16 +33,17 @@ struct BuildReport {
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
     std::uint64_t peak_device_bytes = 0;
-    double sah = 0.0;        ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
-    double sum_volume = 0.0; ///< Of the boxes of all binary nodes, both levels (object space below, world above).
-    double sum_area = 0.0;
+    double sah = 0.0; ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
+    LevelQuality all; ///< Both levels.
+    LevelQuality bottom; ///< In object space, each mesh once.
+    LevelQuality top;    ///< In world space; zeros for one level.
     std::uint32_t max_depth = 0; ///< Of the layout, bottom plus top level.
     std::uint64_t nodes = 0;     ///< Of the layout, both levels.
 };
 
 /// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
-/// both numbers, before the work, when it does not fit. O(n) work in the number of primitives but for the sort's passes
-/// (dissertation 3.3, 3.6).
+/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout. O(n) work in
+/// the number of primitives but for the sort's passes and exact extents (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
 
 } // namespace boxwood

@@ -7,6 +7,7 @@
 #include "boxwood/topology.hpp"
 #include "shared/aabb.h"
 #include "shared/node.h"
+#include "shared/obb.h"
 #include "shared/triangle.h"
 
 namespace boxwood {
@@ -40,5 +41,21 @@ BinaryLayout collapse_binary(Device& device, const Topology& topology, BufferVie
 
 /// The same for one tree over instances.
 BinaryLayout collapse_binary(Device& device, const Topology& topology, BufferView<const Aabb> volumes);
+
+/// Nodes and leaves of the `binary` layout with oriented boxes. The root of tree t is node offsets[t].
+struct OrientedLayout {
+    Buffer<OrientedNode> nodes;
+    Buffer<Triangle> triangles; ///< By sorted position; empty for a tree over instances.
+    std::uint32_t depth = 0;
+};
+
+/// The `binary` layout with oriented boxes: a node that keeps its AABB takes it from `volumes`, the others from `boxes`
+/// (as from obb_volumes). O(n).
+OrientedLayout collapse_oriented(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
+                                 BufferView<const Obb> boxes, const Geometry& geometry);
+
+/// The same for one tree over instances.
+OrientedLayout collapse_oriented(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
+                                 BufferView<const Obb> boxes);
 
 } // namespace boxwood

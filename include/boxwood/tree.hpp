@@ -13,12 +13,16 @@ struct Tree {
     Layout layout = Layout::wide8;
     Levels levels = Levels::one;
 
+    Bounds bounds = Bounds::aabb;
+
     Buffer<BinaryNode> binary_nodes;
+    Buffer<OrientedNode> oriented_nodes;
     Buffer<Triangle> triangles;
     Buffer<Wide8Node> wide_nodes;
     Buffer<Triangle4> blocks;
 
     Buffer<BinaryNode> binary_top;
+    Buffer<OrientedNode> oriented_top;
     Buffer<Wide8Node> wide_top;
     Buffer<InstanceRecord> instances;
     Buffer<std::uint32_t> first_triangles;
@@ -26,7 +30,7 @@ struct Tree {
     std::uint32_t bottom_depth = 0;
     std::uint32_t top_depth = 0;
 
-    bool empty() const { return binary_nodes.size() == 0 && wide_nodes.size() == 0; }
+    bool empty() const { return binary_nodes.size() + oriented_nodes.size() + wide_nodes.size() == 0; }
 };
 
 /// Copies a tree to the host; waits.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "boxwood/bounds.hpp"
 #include "boxwood/scene.hpp"
 #include "shared/instance.h"
 #include "shared/node.h"
@@ -13,8 +14,8 @@
 
 namespace boxwood {
 
-/// Node layout that traversal reads.
-enum class Layout { binary, wide8 };
+/// Node layout that traversal reads; a tree never has `automatic`.
+enum class Layout { automatic, binary, wide8 };
 
 /// One tree over everything flattened to world space, or a tree per mesh under a tree over instances.
 enum class Levels { automatic, one, two };
@@ -32,12 +33,16 @@ struct TreeImage {
     Layout layout = Layout::wide8;
     Levels levels = Levels::one; ///< never automatic
 
-    std::vector<BinaryNode> binary_nodes; ///< Bottom level; leaf references index `triangles`.
+    Bounds bounds = Bounds::aabb; ///< With oriented boxes the oriented arrays stand for the binary ones.
+
+    std::vector<BinaryNode> binary_nodes;     ///< Bottom level; leaf references index `triangles`.
+    std::vector<OrientedNode> oriented_nodes; ///< The same with oriented boxes.
     std::vector<Triangle> triangles;
     std::vector<Wide8Node> wide_nodes; ///< Bottom level; leaf references index `blocks`. Children come after parents.
     std::vector<Triangle4> blocks;
 
     std::vector<BinaryNode> binary_top; ///< Top level, root 0; leaf references index `instances`.
+    std::vector<OrientedNode> oriented_top;
     std::vector<Wide8Node> wide_top;
     std::vector<InstanceRecord> instances; ///< Same order as Scene::instances.
 

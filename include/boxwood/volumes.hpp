@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "boxwood/bounds.hpp"
+#include "boxwood/geometry.hpp"
 #include "boxwood/topology.hpp"
 #include "shared/aabb.h"
+#include "shared/obb.h"
 
 namespace boxwood {
 
@@ -10,5 +13,19 @@ namespace boxwood {
 /// index, those of unused slots empty. `boxes` are the primitives' boxes in their own order. Each box is the exact hull
 /// of those below it. O(n).
 Buffer<Aabb> aabb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> boxes);
+
+/// The oriented box of every node of trees over the triangles of `geometry`: 2n boxes by node index, those of unused
+/// slots empty, bottom-up with one launch per level (dissertation 3.5). `aabbs` as from aabb_volumes over the same
+/// topology. Every box holds every vertex below it: extents are padded by a bound on their rounding. `options.kind` is not
+/// aabb. Kinds with exact extents take O(n depth) work, spread evenly over work-items whatever the shape of the tree;
+/// the others O(n). Throws CapacityError before the work when it does not fit.
+Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
+                        const Geometry& geometry, const BoundsOptions& options);
+
+/// The same for one tree over instances (dissertation 3.6.2), whose primitives are the boxes `mesh_boxes` (by mesh) of their
+/// meshes under their transforms, M_i = M_o M_m (3.1.4), which are the leaves' boxes as they are, sheared or not.
+Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
+                        BufferView<const InstanceRecord> instances, BufferView<const Obb> mesh_boxes,
+                        const BoundsOptions& options);
 
 } // namespace boxwood

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Oriented boxes of point sets, and oriented boxes as matrices.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "boxwood/buffer.hpp"
+#include "boxwood/geometry.hpp"
+#include "shared/obb.h"
+
+namespace boxwood {
+
+/// M = T R S: the affine map of the cube [-0.5, 0.5]^3 onto the box (dissertation 3.1.1). Singular for a flat box.
+glm::dmat4 to_matrix(const Obb& box);
+
+/// The box that `matrix` (affine, invertible in its linear part) maps the cube [-0.5, 0.5]^3 to, rounded outward.
+/// Throws InputError for a singular or non-finite one. to_obb(m * to_matrix(box)) updates a box (dissertation 3.1.4).
+Obb to_obb(const glm::dmat4& matrix);
+
+/// |det M|, and the area of the six faces; 0 for the empty box.
+double volume(const Obb& box);
+double surface_area(const Obb& box);
+
+/// Whether a point lies in the box, in double precision.
+bool contains(const Obb& box, const glm::dvec3& point);
+
+/// The oriented box of each segment of points by principal component analysis (dissertation 3.1.3; Gottschalk 2000):
+/// `positions` holds three floats per point, segment s the points [offsets[s], offsets[s + 1]). Covariances are
+/// shifted and merged pairwise, so no digits are lost far from the origin. Extents are exact, padded by a bound on their
+/// rounding, so every point lies in its box. An empty segment gives the empty box. `boxes` has offsets.size() - 1
+/// elements. O(points + segments), balanced over points.
+void fit_obbs(Device& device, BufferView<const float> positions, BufferView<const std::uint32_t> offsets,
+              BufferView<Obb> boxes);
+
+/// The oriented box of each mesh of `geometry`, its covariance weighted by area, continuous over the triangles, so that it
+/// does not depend on how the surface is cut into them. A mesh without area takes its vertices. `boxes` has one element
+/// per mesh.
+void fit_mesh_obbs(Device& device, const Geometry& geometry, BufferView<Obb> boxes);
+
+} // namespace boxwood
