@@ -16,7 +16,7 @@ typedef struct BinaryNode {
 BOXWOOD_SHARED_SIZE(BinaryNode, 64)
 
 /// `binary` with oriented volumes. Where a child's reference has BOXWOOD_ALIGNED, the first six floats of its volume are an
-/// Aabb (min, max) and the others are zero; else they are an Obb: center, half, and its axes by columns, so that the
+/// Aabb (min, max) and the others are zero; else they are an Obb: center, extent, and its axes by columns, so that the
 /// three slabs are the lanes of a vector. A tree over one primitive has an empty, aligned second child with the
 /// reference BOXWOOD_NONE. Indices are below 2^30.
 typedef struct OrientedNode {

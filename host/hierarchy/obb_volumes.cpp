@@ -1,29 +1,148 @@
 // SPDX-License-Identifier: MIT
+#include "boxwood/error.hpp"
+#include "boxwood/scan.hpp"
 #include "boxwood/volumes.hpp"
-
+#include "hierarchy/node_levels.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
 
 namespace {
 
-Buffer<Obb> aligned(Device& device, BufferView<const Aabb> aabbs) {
-    Buffer<Obb> boxes = make_scratch<Obb>(device, aabbs.size(), "oriented boxes of nodes");
-    launch(device, {"hierarchy/obb_volumes.cl", "aligned_boxes"}, "aligned boxes", aabbs.size(), aabbs, boxes,
-           static_cast<std::uint32_t>(aabbs.size()));
-    return boxes;
+/// Primitives that one work-item may take at a time; see cl/hierarchy/obb_ranges.cl.
+constexpr std::uint32_t chunk = 4096;
+/// Floats that a vector load may read behind the last point.
+constexpr std::uint32_t padding = 64;
+
+/// What all passes need: the trees, their points, and how the kernels are specialised.
+struct Fit {
+    Device& device;
+    const Topology& topology;
+    BufferView<const Aabb> aabbs;
+    BoundsOptions options;
+    std::uint32_t points_per_primitive;
+    std::uint32_t count;
+    Buffer<float> points;
+    std::uint32_t stride;
+    Buffer<float> errors;
+    Buffer<Obb> boxes;
+};
+
+KernelRef kernel_of(const Fit& fit, const char* file, const char* name, Defines extra = {}) {
+    Defines defines{{"LANES", fit.device.info().cpu ? "8" : "1"},
+                    {"POINTS_PER_PRIMITIVE", std::to_string(fit.points_per_primitive)},
+                    {"MEASURE_AREA", fit.options.measure == Measure::area ? "1" : "0"},
+                    {"FALLBACK", fit.options.fallback ? "1" : "0"}};
+    defines.merge(extra);
+    return {file, name, std::move(defines)};
+}
+
+void fit_triangles(Fit& fit, const Geometry& geometry) {
+    const Slices slices = cut(fit.device, fit.count);
+    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "sorted_points"), "sorted points", slices.slices,
+           fit.topology.order, geometry.positions, geometry.triangles, fit.points, fit.stride, fit.count,
+           slices.length);
+    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "triangle_leaves"), "leaf boxes", slices.slices,
+           fit.aabbs, fit.points, fit.stride, fit.boxes, fit.count, slices.length);
+    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots",
+           fit.topology.trees(), fit.topology.offsets, fit.boxes, static_cast<std::uint32_t>(fit.topology.trees()));
+}
+
+/// One launch per level, from the leaves' parents up; `extents`: boxes from the children's, else axes alone.
+void merge_levels(Fit& fit, const char* merge, bool extents) {
+    Buffer<float> moments;
+    if (fit.options.kind == Bounds::obb_moments) {
+        moments = make_scratch<float>(fit.device, 24 * std::size_t{fit.count}, "moments of nodes");
+        const Slices slices = cut(fit.device, fit.count);
+        launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "leaf_moments"), "leaf moments", slices.slices,
+               fit.aabbs, fit.points, fit.stride, moments, fit.count, slices.length);
+    }
+    const NodeLevels levels = node_levels(fit.device, fit.topology);
+    const KernelRef kernel = kernel_of(fit, "hierarchy/obb_merge.cl", "merge_level",
+                                       {{"MERGE", merge}, {"EXTENTS", extents ? "1" : "0"}});
+    for (std::uint32_t height = 1; height <= levels.height(); ++height) {
+        const std::uint32_t first = levels.starts[height], size = levels.starts[height + 1] - first;
+        const Slices slices = cut(fit.device, size, 8);
+        launch(fit.device, kernel, "merged nodes", slices.slices, levels.nodes, first, size, slices.length,
+               fit.topology.children, fit.topology.far_ends, fit.aabbs, moments, fit.boxes, fit.count);
+    }
+}
+
+/// A pass over the points below every node: 0 for axes by covariance, 1 for boxes along the axes.
+void pass_over_ranges(Fit& fit, const char* pass, const char* label) {
+    Device& device = fit.device;
+    const Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}};
+    const auto kernel = [&](const char* name) { return kernel_of(fit, "hierarchy/obb_ranges.cl", name, extra); };
+    const Buffer<std::uint32_t> chunks = make_scratch<std::uint32_t>(device, fit.count, "chunks of nodes");
+    const Slices slices = cut(device, fit.count);
+    launch(device, kernel("node_chunks"), "chunks of nodes", slices.slices, fit.topology.children,
+           fit.topology.far_ends, chunks, fit.count, slices.length);
+    launch(device, kernel("short_nodes"), label, slices.slices, chunks, fit.topology.children, fit.topology.far_ends,
+           fit.aabbs, fit.points, fit.stride, fit.errors, fit.boxes, fit.count, slices.length);
+    if (fit.count <= chunk) return;
+    const Buffer<std::uint32_t> first_chunks = make_scratch<std::uint32_t>(device, fit.count, "first chunks");
+    exclusive_scan<std::uint32_t>(device, chunks, Operator::sum, first_chunks);
+    const std::uint32_t total =
+        download_element(device, first_chunks, fit.count - 1) + download_element(device, chunks, fit.count - 1);
+    const std::size_t results = pass[0] == '0' ? 9 : 6;
+    const Buffer<float> parts = make_scratch<float>(device, results * total, "results of chunks");
+    launch(device, kernel("long_chunks"), label, total, first_chunks, fit.topology.far_ends, fit.aabbs, fit.points,
+           fit.stride, fit.boxes, parts, fit.count, total);
+    launch(device, kernel("long_nodes"), label, slices.slices, chunks, first_chunks, fit.topology.children,
+           fit.topology.far_ends, fit.aabbs, fit.errors, parts, fit.boxes, fit.count, slices.length);
+}
+
+void fit_inner_nodes(Fit& fit) {
+    switch (fit.options.kind) {
+    case Bounds::obb_points:
+        pass_over_ranges(fit, "0", "covariances");
+        pass_over_ranges(fit, "1", "extents");
+        break;
+    case Bounds::obb_boxes:
+        merge_levels(fit, "1", true);
+        break;
+    case Bounds::obb_moments:
+        merge_levels(fit, "0", fit.options.extents == Extents::corners);
+        if (fit.options.extents == Extents::exact) pass_over_ranges(fit, "1", "extents");
+        break;
+    default:
+        throw InputError("bounds", std::string(name(fit.options.kind)), "is not a kind of oriented box");
+    }
+}
+
+Fit make_fit(Device& device, const Topology& topology, BufferView<const Aabb> aabbs, const BoundsOptions& options,
+             std::uint32_t points_per_primitive) {
+    const auto count = static_cast<std::uint32_t>(topology.size());
+    const std::uint32_t stride = points_per_primitive * count + padding;
+    return {device,
+            topology,
+            aabbs,
+            options,
+            points_per_primitive,
+            count,
+            make_scratch<float>(device, 3 * std::size_t{stride}, "sorted points"),
+            stride,
+            {},
+            make_scratch<Obb>(device, 2 * std::size_t{count}, "oriented boxes of nodes")};
 }
 
 } // namespace
 
-Buffer<Obb> obb_volumes(Device& device, const Topology&, BufferView<const Aabb> aabbs, const Geometry&,
-                        const BoundsOptions&) {
-    return aligned(device, aabbs);
+Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
+                        const Geometry& geometry, const BoundsOptions& options) {
+    Fit fit = make_fit(device, topology, aabbs, options, 3);
+    fit_triangles(fit, geometry);
+    fit_inner_nodes(fit);
+    return std::move(fit.boxes);
 }
 
-Buffer<Obb> obb_volumes(Device& device, const Topology&, BufferView<const Aabb> aabbs,
-                        BufferView<const InstanceRecord>, BufferView<const Obb>, const BoundsOptions&) {
-    return aligned(device, aabbs);
+Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
+                        BufferView<const InstanceRecord> instances, BufferView<const Obb> mesh_boxes,
+                        const BoundsOptions& options) {
+    Fit fit = make_fit(device, topology, aabbs, options, 8);
+    (void)instances;
+    (void)mesh_boxes;
+    return std::move(fit.boxes);
 }
 
 } // namespace boxwood

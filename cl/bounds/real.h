@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// How many boxes a work-item treats at once: the code of oriented boxes is written on `real`, one float or eight. A
+// device of fat work-items takes eight, so that its vector units are used; the operations of a lane are the same, and so
+// are the results.
+//
+// LANES  1 or 8
+#ifndef BOXWOOD_BOUNDS_REAL_H
+#define BOXWOOD_BOUNDS_REAL_H
+#include "runtime/inline.h"
+#include "runtime/numerics.h"
+
+#if LANES == 8
+typedef float8 real;
+typedef int8 mask; ///< As comparisons give it: every bit of a lane, or none.
+#define AS_INT(x) as_int8(x)
+#define AS_REAL(x) as_float8(x)
+#define ANY(m) any(m)
+#define STORE_LANES(values, target) vstore8(values, 0, target)
+#define LOAD_LANES(source) vload8(0, source)
+#elif LANES == 1
+typedef float real;
+typedef int mask; ///< As comparisons give it: not zero where it holds.
+#define AS_INT(x) as_int(x)
+#define AS_REAL(x) as_float(x)
+#define ANY(m) ((m) != 0)
+#define STORE_LANES(values, target) (*(target) = (values))
+#define LOAD_LANES(source) (*(source))
+#else
+#error "define LANES (1 or 8)"
+#endif
+
+// Records of floats are read and written whole, one row per lane, and transposed in registers: picking single floats for the
+// lanes would make gather instructions of them, which are slow.
+
+#if LANES == 8
+
+#define PAIRS_LOW(p, q) ((float8)((p).s0, (q).s0, (p).s1, (q).s1, (p).s4, (q).s4, (p).s5, (q).s5))
+#define PAIRS_HIGH(p, q) ((float8)((p).s2, (q).s2, (p).s3, (q).s3, (p).s6, (q).s6, (p).s7, (q).s7))
+#define FOURS_LOW(p, q) ((float8)((p).s01, (q).s01, (p).s45, (q).s45))
+#define FOURS_HIGH(p, q) ((float8)((p).s23, (q).s23, (p).s67, (q).s67))
+
+/// Rows become columns.
+INLINE void transpose(float8* r) {
+    const float8 a0 = PAIRS_LOW(r[0], r[1]), a1 = PAIRS_HIGH(r[0], r[1]);
+    const float8 a2 = PAIRS_LOW(r[2], r[3]), a3 = PAIRS_HIGH(r[2], r[3]);
+    const float8 a4 = PAIRS_LOW(r[4], r[5]), a5 = PAIRS_HIGH(r[4], r[5]);
+    const float8 a6 = PAIRS_LOW(r[6], r[7]), a7 = PAIRS_HIGH(r[6], r[7]);
+    const float8 b0 = FOURS_LOW(a0, a2), b1 = FOURS_HIGH(a0, a2), b2 = FOURS_LOW(a1, a3), b3 = FOURS_HIGH(a1, a3);
+    const float8 b4 = FOURS_LOW(a4, a6), b5 = FOURS_HIGH(a4, a6), b6 = FOURS_LOW(a5, a7), b7 = FOURS_HIGH(a5, a7);
+    r[0] = (float8)(b0.lo, b4.lo);
+    r[1] = (float8)(b1.lo, b5.lo);
+    r[2] = (float8)(b2.lo, b6.lo);
+    r[3] = (float8)(b3.lo, b7.lo);
+    r[4] = (float8)(b0.hi, b4.hi);
+    r[5] = (float8)(b1.hi, b5.hi);
+    r[6] = (float8)(b2.hi, b6.hi);
+    r[7] = (float8)(b3.hi, b7.hi);
+}
+
+// For each lane, without a loop that would keep the rows in memory.
+#define EACH_LANE(statement) \
+    do {                     \
+        statement(0);        \
+        statement(1);        \
+        statement(2);        \
+        statement(3);        \
+        statement(4);        \
+        statement(5);        \
+        statement(6);        \
+        statement(7);        \
+    } while (0)
+#define ROW(lane) (base + stride * (size_t)index[lane])
+
+/// v[k] = base[stride * index + k] of each lane's index, k < 8, and the same of six and of four floats.
+INLINE void load_rows8(global const float* base, uint stride, const uint* index, real* v) {
+#define LOAD(lane) v[lane] = vload8(0, ROW(lane))
+    EACH_LANE(LOAD);
+#undef LOAD
+    transpose(v);
+}
+INLINE void load_rows6(global const float* base, uint stride, const uint* index, real* v) {
+#define LOAD(lane) v[lane] = (float8)(vload4(0, ROW(lane)), vload2(2, ROW(lane)), 0.0f, 0.0f)
+    EACH_LANE(LOAD);
+#undef LOAD
+    transpose(v);
+}
+INLINE void load_rows4(global const float* base, uint stride, const uint* index, real* v) {
+#define LOAD(lane) v[lane] = (float8)(vload4(0, ROW(lane)), (float4)(0.0f))
+    EACH_LANE(LOAD);
+#undef LOAD
+    transpose(v);
+}
+
+/// The reverse, for the first `count` lanes; v is used up.
+INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
+    transpose(v);
+#define STORE(lane) \
+    if (lane < count) vstore8(v[lane], 0, ROW(lane))
+    EACH_LANE(STORE);
+#undef STORE
+}
+INLINE void store_rows4(real* v, global float* base, uint stride, const uint* index, uint count) {
+    v[4] = v[5] = v[6] = v[7] = 0.0f;
+    transpose(v);
+#define STORE(lane) \
+    if (lane < count) vstore4(v[lane].lo, 0, ROW(lane))
+    EACH_LANE(STORE);
+#undef STORE
+}
+
+#else
+
+INLINE void load_rows8(global const float* base, uint stride, const uint* index, real* v) {
+    for (int k = 0; k < 8; ++k) v[k] = base[stride * (size_t)index[0] + k];
+}
+INLINE void load_rows6(global const float* base, uint stride, const uint* index, real* v) {
+    for (int k = 0; k < 6; ++k) v[k] = base[stride * (size_t)index[0] + k];
+}
+INLINE void load_rows4(global const float* base, uint stride, const uint* index, real* v) {
+    for (int k = 0; k < 4; ++k) v[k] = base[stride * (size_t)index[0] + k];
+}
+INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
+    for (int k = 0; k < 8; ++k) base[stride * (size_t)index[0] + k] = v[k];
+}
+INLINE void store_rows4(real* v, global float* base, uint stride, const uint* index, uint count) {
+    for (int k = 0; k < 4; ++k) base[stride * (size_t)index[0] + k] = v[k];
+}
+
+#endif
+
+/// `yes` in the lanes where `condition`, a comparison, holds; else `no`.
+#define CHOOSE(condition, yes, no) select((no), (yes), (condition))
+#define CHOOSE_INT(condition, yes, no) select((mask)(no), (mask)(yes), (condition))
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Vectors, symmetric matrices and frames of `real` lanes. Results go through pointers, for Oclgrind's sake.
+#ifndef BOXWOOD_BOUNDS_VECTOR_H
+#define BOXWOOD_BOUNDS_VECTOR_H
+#include "bounds/real.h"
+
+typedef struct Vector {
+    real x, y, z;
+} Vector;
+
+typedef struct Symmetric {
+    real xx, yy, zz, xy, xz, yz;
+} Symmetric;
+
+/// Three axes, orthonormal and right-handed where nothing else is said.
+typedef struct Frame {
+    Vector a, b, c;
+} Frame;
+
+INLINE real dot3(const Vector* p, const Vector* q) { return fma(p->x, q->x, fma(p->y, q->y, p->z * q->z)); }
+
+/// sum |p_i q_i|: what bounds the rounding of dot3, and the reach of a box along an axis.
+INLINE real reach3(const Vector* p, const Vector* q) {
+    return fma(fabs(p->x), fabs(q->x), fma(fabs(p->y), fabs(q->y), fabs(p->z * q->z)));
+}
+
+INLINE void cross3(const Vector* p, const Vector* q, Vector* result) {
+    const Vector r = {fma(p->y, q->z, -(p->z * q->y)), fma(p->z, q->x, -(p->x * q->z)),
+                      fma(p->x, q->y, -(p->y * q->x))};
+    *result = r;
+}
+
+INLINE void scale3(real factor, Vector* v) {
+    v->x *= factor;
+    v->y *= factor;
+    v->z *= factor;
+}
+
+/// v += factor * p
+INLINE void add_scaled3(real factor, const Vector* p, Vector* v) {
+    v->x = fma(factor, p->x, v->x);
+    v->y = fma(factor, p->y, v->y);
+    v->z = fma(factor, p->z, v->z);
+}
+
+INLINE real larger(real p, real q) { return GREATER(p, q); }
+
+INLINE real smaller(real p, real q) { return LESSER(p, q); }
+
+INLINE real largest3(const Vector* v) { return larger(fabs(v->x), larger(fabs(v->y), fabs(v->z))); }
+
+/// Length 1, unless v is zero, which stays. No overflow or underflow of squares: the largest component must be near 1.
+INLINE void normalise3(Vector* v) {
+    const real square = dot3(v, v);
+    scale3(CHOOSE(square > 0.0f, 1.0f / sqrt(square), (real)(0.0f)), v);
+}
+
+INLINE void choose3(mask condition, const Vector* yes, Vector* v) {
+    v->x = CHOOSE(condition, yes->x, v->x);
+    v->y = CHOOSE(condition, yes->y, v->y);
+    v->z = CHOOSE(condition, yes->z, v->z);
+}
+
+INLINE void identity_frame(Frame* frame) {
+    const real one = 1.0f, zero = 0.0f;
+    const Vector x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
+    frame->a = x;
+    frame->b = y;
+    frame->c = z;
+}
+
+/// Makes rows that are nearly orthonormal so to rounding, and right-handed: the third follows from the first two. Entries of
+/// F F^T - I are then at most 4 units in the last place of 1.
+INLINE void orthonormalise(Frame* frame) {
+    normalise3(&frame->a);
+    add_scaled3(-dot3(&frame->a, &frame->b), &frame->a, &frame->b);
+    normalise3(&frame->b);
+    cross3(&frame->a, &frame->b, &frame->c);
+}
+
+/// The power of two at or below each positive value, at least the smallest normal one.
+INLINE real power_below(real value) {
+    return AS_REAL(max(AS_INT(value) & 0x7f800000, 0x00800000));
+}
+
+/// 1 / power, exact, for powers of two from 2^-126 to 2^126.
+INLINE real inverse_power(real power) { return AS_REAL(0x7f000000 - AS_INT(power)); }
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of oriented boxes know of a node: its points, its moments.
+//
+// POINTS_PER_PRIMITIVE  3: triangles, whose vertices are as they are; 8: instances, whose corners were rounded
+#ifndef BOXWOOD_HIERARCHY_OBB_NODE_H
+#define BOXWOOD_HIERARCHY_OBB_NODE_H
+#include "bounds/moments.h"
+#include "bounds/oriented_box.h"
+#include "hierarchy/forest.h"
+
+#if POINTS_PER_PRIMITIVE != 3 && POINTS_PER_PRIMITIVE != 8
+#error "define POINTS_PER_PRIMITIVE (3 or 8)"
+#endif
+
+/// The nodes' arrays that the kernels share.
+typedef struct Nodes {
+    global const Aabb* aabbs;   ///< 2n
+    global const float* points; ///< x of all points by sorted position, then y, then z; `stride` apart.
+    uint stride;
+    global const float* errors; ///< 4 per node: how far its points may be off, in each coordinate, and 0. 8 points only.
+    uint count;                 ///< n
+} Nodes;
+
+/// The error of the points below, in the node's space.
+INLINE void inexact_of(const Nodes* nodes, const uint* index, const Space* space, Vector* inexact) {
+#if POINTS_PER_PRIMITIVE == 8
+    real v[8];
+    load_rows4(nodes->errors, 4, index, v);
+    const Vector error = {v[0], v[1], v[2]};
+    *inexact = error;
+    scale3(space->inverse_unit, inexact);
+#else
+    const Vector none = {0.0f, 0.0f, 0.0f};
+    *inexact = none;
+#endif
+}
+
+/// One coordinate of the points of LANES primitives from sorted position `first` on: v[k] are the k-th points. Reads behind
+/// the last primitive, where the array has room for it.
+INLINE void load_coordinates(global const float* base, uint first, real* v) {
+    global const float* source = base + POINTS_PER_PRIMITIVE * (size_t)first;
+#if LANES == 1
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) v[k] = source[k];
+#elif POINTS_PER_PRIMITIVE == 8
+#define LOAD(lane) v[lane] = vload8(lane, source)
+    EACH_LANE(LOAD);
+#undef LOAD
+    transpose(v);
+#else
+    const float8 a = vload8(0, source), b = vload8(1, source), c = vload8(2, source);
+    v[0] = (float8)(a.s0, a.s3, a.s6, b.s1, b.s4, b.s7, c.s2, c.s5);
+    v[1] = (float8)(a.s1, a.s4, a.s7, b.s2, b.s5, c.s0, c.s3, c.s6);
+    v[2] = (float8)(a.s2, a.s5, b.s0, b.s3, b.s6, c.s1, c.s4, c.s7);
+#endif
+}
+
+/// The points of LANES primitives from sorted position `first` on, in `space`.
+INLINE void load_primitives(const Nodes* nodes, uint first, const Space* space, Vector* points) {
+    real x[8], y[8], z[8];
+    load_coordinates(nodes->points, first, x);
+    load_coordinates(nodes->points + nodes->stride, first, y);
+    load_coordinates(nodes->points + 2 * (size_t)nodes->stride, first, z);
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) {
+        const Vector p = {x[k], y[k], z[k]};
+        to_space(space, &p, &points[k]);
+    }
+}
+
+/// Moments of the points of one primitive.
+INLINE void primitive_moments(const Vector* points, Moments* moments) {
+    const Vector none = {0.0f, 0.0f, 0.0f};
+    const Symmetric zero = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const real share = 1.0f / POINTS_PER_PRIMITIVE;
+    moments->mean = none;
+    moments->covariance = zero;
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) add_scaled3(share, &points[k], &moments->mean);
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) {
+        Vector p = points[k];
+        add_scaled3((real)(-1.0f), &moments->mean, &p);
+        add_outer(share, &p, &moments->covariance);
+    }
+}
+
+/// MOMENT_FLOATS per node, in the node's own space: mean, covariance, zeros.
+#define MOMENT_FLOATS 12
+
+INLINE void load_moments(global const float* base, const uint* index, Moments* moments) {
+    real v[8], w[8];
+    load_rows8(base, MOMENT_FLOATS, index, v);
+    load_rows4(base + 8, MOMENT_FLOATS, index, w);
+    const Vector mean = {v[0], v[1], v[2]};
+    const Symmetric covariance = {v[3], v[4], v[5], v[6], v[7], w[0]};
+    moments->mean = mean;
+    moments->covariance = covariance;
+}
+
+INLINE void store_moments(const Moments* moments, global float* base, const uint* index, uint count) {
+    const Symmetric* m = &moments->covariance;
+    real v[8] = {moments->mean.x, moments->mean.y, moments->mean.z, m->xx, m->yy, m->zz, m->xy, m->xz};
+    real w[8] = {m->yz, 0.0f, 0.0f, 0.0f};
+    store_rows8(v, base, MOMENT_FLOATS, index, count);
+    store_rows4(w, base + 8, MOMENT_FLOATS, index, count);
+}
+
+/// Takes moments from the space of one node to that of another.
+INLINE void change_space(const Space* from, const Space* to, Moments* moments) {
+    Vector shift;
+    to_space(to, &from->origin, &shift);
+    move_moments(from->unit * to->inverse_unit, &shift, moments);
+}
+
+/// Moments of a box's 8 corners: the mean of h^2 a a^T over its axes.
+INLINE void box_moments(const OrientedBox* box, Moments* moments) {
+    const Symmetric zero = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    moments->mean = box->center;
+    moments->covariance = zero;
+    add_outer(box->extent.x * box->extent.x, &box->axes.a, &moments->covariance);
+    add_outer(box->extent.y * box->extent.y, &box->axes.b, &moments->covariance);
+    add_outer(box->extent.z * box->extent.z, &box->axes.c, &moments->covariance);
+}
+
+#endif
