@@ -3,6 +3,7 @@
 //
 // ANY_HIT         0: closest hit; 1: any hit.
 // LAYOUT          2: `binary` nodes and single triangles; 8: `wide8` nodes and blocks of four triangles.
+// ORIENTED        1: `binary` nodes with oriented boxes; 0: axis-aligned boxes.
 // LEVELS          1: one tree in world space; 2: a tree over instances above a tree per mesh.
 // FLATTENED       1: one level that holds the triangles of several instances; 0: anything else.
 // STATISTICS      1: count the volumes and primitives tested.
@@ -11,12 +12,12 @@
 #ifndef BOXWOOD_TRAVERSE_CONFIG_H
 #define BOXWOOD_TRAVERSE_CONFIG_H
 
-#if !defined(ANY_HIT) || !defined(LAYOUT) || !defined(LEVELS) || !defined(FLATTENED) || !defined(STATISTICS) || \
-    !defined(STACK_SIZE) || !defined(GROUP_SIZE)
-#error "define ANY_HIT, LAYOUT, LEVELS, FLATTENED, STATISTICS, STACK_SIZE and GROUP_SIZE"
+#if !defined(ANY_HIT) || !defined(LAYOUT) || !defined(ORIENTED) || !defined(LEVELS) || !defined(FLATTENED) || \
+    !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
+#error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, STATISTICS, STACK_SIZE and GROUP_SIZE"
 #endif
-#if (LAYOUT != 2 && LAYOUT != 8) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || STACK_SIZE < 1
-#error "LAYOUT is 2 or 8, LEVELS is 1 or 2, only one level can be flattened, and the stack is not empty"
+#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || STACK_SIZE < 1
+#error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only one level can be flattened, and the stack is not empty"
 #endif
 
 #include "runtime/lanes.h"
@@ -29,6 +30,9 @@
 #if LAYOUT == 8
 typedef Wide8Node node_t;
 typedef Triangle4 leaf_t;
+#elif ORIENTED
+typedef OrientedNode node_t;
+typedef Triangle leaf_t;
 #else
 typedef BinaryNode node_t;
 typedef Triangle leaf_t;

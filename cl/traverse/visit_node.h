@@ -4,6 +4,7 @@
 #define BOXWOOD_TRAVERSE_VISIT_NODE_H
 #include "runtime/prefetch.h"
 #include "traverse/ray_box.h"
+#include "traverse/ray_obb.h"
 #include "traverse/walk.h"
 
 // Exchanges two entries when the first is farther, without a branch.
@@ -70,20 +71,42 @@ INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Wa
 
 #else
 
+#if ORIENTED
+
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const Walk* walk, float* entry) {
+    global const float* volume = node->volume[slot];
+    if ((node->child[slot] & BOXWOOD_ALIGNED) != 0)
+        return ray_box(ray, (global const Aabb*)volume, walk->t_min, walk->t_max, entry);
+    return ray_obb(ray, volume, walk->t_min, walk->t_max, entry);
+}
+
+INLINE uint child_reference(global const node_t* node, uint slot) { return node->child[slot] & ~BOXWOOD_ALIGNED; }
+
+#else
+
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const Walk* walk, float* entry) {
+    return ray_box(ray, &node->bounds[slot], walk->t_min, walk->t_max, entry);
+}
+
+INLINE uint child_reference(global const node_t* node, uint slot) { return node->child[slot]; }
+
+#endif
+
+/// The nearer child met, the other left on the stack. BOXWOOD_NONE when none is met, as the empty box never is.
 INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Walk* walk, entry_t* stack) {
     global const node_t* node = &arrays->nodes[index];
 #if STATISTICS
     walk->statistics.volumes += node->child[1] == BOXWOOD_NONE ? 1 : 2;
 #endif
     float entry0, entry1;
-    const bool met0 = ray_box(ray, &node->bounds[0], walk->t_min, walk->t_max, &entry0);
-    const bool met1 = ray_box(ray, &node->bounds[1], walk->t_min, walk->t_max, &entry1);
+    const bool met0 = ray_child(ray, node, 0, walk, &entry0);
+    const bool met1 = ray_child(ray, node, 1, walk, &entry1);
     if (met0 && met1) {
         const bool swapped = entry1 < entry0;
-        stack[walk->top++] = ENTRY_OF(swapped ? entry0 : entry1, node->child[swapped ? 0 : 1]);
-        return node->child[swapped ? 1 : 0];
+        stack[walk->top++] = ENTRY_OF(swapped ? entry0 : entry1, child_reference(node, swapped ? 0 : 1));
+        return child_reference(node, swapped ? 1 : 0);
     }
-    return met0 ? node->child[0] : met1 ? node->child[1] : BOXWOOD_NONE;
+    return met0 ? child_reference(node, 0) : met1 ? child_reference(node, 1) : BOXWOOD_NONE;
 }
 
 #endif

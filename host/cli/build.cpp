@@ -25,12 +25,14 @@ void print_summary(const Arguments& arguments, const Input& input, const Prepare
     const BuildReport& report = *prepared.report;
     std::cout << arguments.output.string() << ": " << grouped(input.scene.triangle_count()) << " triangles, "
               << grouped(input.scene.instances.size()) << " instances, " << name(prepared.tree.layout) << ", "
+              << name(prepared.tree.bounds) << ", "
               << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << ", " << grouped(report.nodes)
               << " nodes, depth " << report.max_depth << ", built in " << std::fixed << std::setprecision(1)
               << report.total_ms << " ms (kernels " << report.profile.total_ms() << " ms)\n";
 }
 
 void run(const Arguments& arguments) {
+    arguments.choice.check();
     check_output(arguments.output, ".bxw");
     check_output(arguments.report, "");
     Progress progress(arguments.common.quiet, 3);

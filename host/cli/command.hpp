@@ -62,6 +62,8 @@ struct BuildChoice {
     std::vector<const CLI::Option*> declared;
 
     bool given() const;
+    /// Throws UsageError for options that do not go together. To be called before any work.
+    void check() const;
 };
 void add_build_options(CLI::App& command, BuildChoice& choice);
 

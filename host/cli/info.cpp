@@ -24,13 +24,10 @@ Json cameras_report(const Scene& scene) {
 }
 
 Json tree_report(const TreeImage& tree) {
-    return {{"layout", name(tree.layout)},
-            {"levels", name(tree.levels)},
-            {"bottom_nodes", tree.binary_nodes.size() + tree.wide_nodes.size()},
-            {"top_nodes", tree.binary_top.size() + tree.wide_top.size()},
-            {"leaves", tree.triangles.size() + tree.blocks.size()},
-            {"bottom_depth", tree.bottom_depth},
-            {"top_depth", tree.top_depth}};
+    return {{"layout", name(tree.layout)},       {"levels", name(tree.levels)},
+            {"bounds", name(tree.bounds)},       {"bottom_nodes", bottom_nodes(tree)},
+            {"top_nodes", top_nodes(tree)},      {"leaves", tree.triangles.size() + tree.blocks.size()},
+            {"bottom_depth", tree.bottom_depth}, {"top_depth", tree.top_depth}};
 }
 
 void print_scene(const Input& input) {
@@ -53,13 +50,13 @@ void print_scene(const Input& input) {
 }
 
 void print_tree(const TreeImage& tree) {
-    std::cout << "  tree        " << name(tree.layout) << ", "
+    std::cout << "  tree        " << name(tree.layout) << ", " << name(tree.bounds) << ", "
               << (tree.levels == Levels::two ? "two levels" : "one level") << '\n'
-              << "  bottom      " << grouped(tree.binary_nodes.size() + tree.wide_nodes.size()) << " nodes, "
+              << "  bottom      " << grouped(bottom_nodes(tree)) << " nodes, "
               << grouped(tree.triangles.size() + tree.blocks.size()) << " leaves, depth " << tree.bottom_depth << '\n';
     if (tree.levels == Levels::two)
-        std::cout << "  top         " << grouped(tree.binary_top.size() + tree.wide_top.size()) << " nodes, "
-                  << grouped(tree.instances.size()) << " instances, depth " << tree.top_depth << '\n';
+        std::cout << "  top         " << grouped(top_nodes(tree)) << " nodes, " << grouped(tree.instances.size())
+                  << " instances, depth " << tree.top_depth << '\n';
 }
 
 void run(const Arguments& arguments) {

@@ -47,9 +47,11 @@ Input load_input(const std::filesystem::path& file, bool quiet) {
 
 Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) {
     if (!input.tree) {
+        BuildOptions options = choice.options;
         BuildReport report;
-        Tree tree = build(device, input.scene, choice.options, &report);
-        return {std::move(tree), choice.options, std::move(report)};
+        Tree tree = build(device, input.scene, options, &report);
+        options.layout = tree.layout;
+        return {std::move(tree), options, std::move(report)};
     }
     if (choice.given())
         throw UsageError(input.file.string() +
@@ -57,6 +59,7 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
     BuildOptions options;
     options.layout = input.tree->layout;
     options.levels = input.tree->levels;
+    options.bounds.kind = input.tree->bounds;
     return {upload(device, *input.tree), options, std::nullopt};
 }
 

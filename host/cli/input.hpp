@@ -27,7 +27,7 @@ Input load_input(const std::filesystem::path& file, bool quiet);
 /// A tree ready for rays, and what building it measured when it was built.
 struct Prepared {
     Tree tree;
-    BuildOptions options; ///< As asked for, or as the stored tree is (whose Morton codes are not known).
+    BuildOptions options; ///< As asked for, the layout as it was chosen; or what a stored tree tells.
     std::optional<BuildReport> report;
 };
 

@@ -18,6 +18,12 @@ std::uint32_t to_number(std::string_view text) {
     return status == std::errc() && rest == text.data() + text.size() ? value : 0;
 }
 
+std::vector<std::string> bounds_words() {
+    std::vector<std::string> words;
+    for (const Bounds kind : all_bounds()) words.emplace_back(name(kind));
+    return words;
+}
+
 } // namespace
 
 Device open_device(const Common& common) {
@@ -41,6 +47,13 @@ bool BuildChoice::given() const {
     return std::any_of(declared.begin(), declared.end(), [](const CLI::Option* option) { return option->count() > 0; });
 }
 
+void BuildChoice::check() const {
+    if (options.layout == Layout::wide8 && options.bounds.kind != Bounds::aabb)
+        throw UsageError(
+            "--layout wide8 holds axis-aligned boxes only: leave it out, or use --layout binary, with --bounds " +
+            std::string(name(options.bounds.kind)));
+}
+
 void add_build_options(CLI::App& command, BuildChoice& choice) {
     BuildOptions& options = choice.options;
     choice.declared = {
@@ -52,8 +65,23 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         command
             .add_option_function<std::string>(
                 "--layout", [&](const std::string& word) { options.layout = to_layout(word); },
-                "Nodes with two children or eight (default: wide8)")
+                "Nodes with two children or eight (default: wide8, but binary for oriented boxes)")
             ->check(CLI::IsMember({"binary", "wide8"})),
+        command
+            .add_option_function<std::string>(
+                "--bounds", [&](const std::string& word) { options.bounds.kind = to_bounds(word); },
+                "Volumes of the nodes: axis-aligned boxes (default), or a kind of oriented boxes")
+            ->check(CLI::IsMember(bounds_words())),
+        command
+            .add_option_function<std::string>(
+                "--extents", [&](const std::string& word) { options.bounds.extents = to_extents(word); },
+                "Extents of obb-moments from all vertices (exact, default) or from the children's corners")
+            ->check(CLI::IsMember({"exact", "corners"})),
+        command
+            .add_option_function<std::string>(
+                "--measure", [&](const std::string& word) { options.bounds.measure = to_measure(word); },
+                "A node keeps its axis-aligned box unless the oriented one has less volume (default) or area")
+            ->check(CLI::IsMember({"volume", "area"})),
         command
             .add_option_function<int>(
                 "--morton", [&](int bits) { options.morton = bits == 63 ? MortonBits::bits63 : MortonBits::bits30; },

@@ -48,6 +48,7 @@ void save_preview(const Arguments& arguments, const Image& image, Json& report) 
 }
 
 void run(const Arguments& arguments) {
+    arguments.choice.check();
     check_output(arguments.output, ".exr");
     check_output(arguments.preview(), ".png");
     check_output(arguments.report, "");

@@ -31,18 +31,24 @@ Json quality_report(const Input& input, const Prepared& prepared) {
     if (prepared.report) {
         const BuildReport& report = *prepared.report;
         return {{"sah", report.sah},
-                {"sum_volume", report.sum_volume},
-                {"sum_area", report.sum_area},
+                {"sum_volume", report.all.sum_volume},
+                {"sum_area", report.all.sum_area},
                 {"max_depth", report.max_depth},
                 {"nodes", report.nodes}};
     }
     const TreeImage& tree = *input.tree;
-    return {
-        {"max_depth", tree.bottom_depth + tree.top_depth},
-        {"nodes", tree.binary_nodes.size() + tree.binary_top.size() + tree.wide_nodes.size() + tree.wide_top.size()}};
+    return {{"max_depth", tree.bottom_depth + tree.top_depth}, {"nodes", bottom_nodes(tree) + top_nodes(tree)}};
 }
 
 } // namespace
+
+std::size_t bottom_nodes(const TreeImage& tree) {
+    return tree.binary_nodes.size() + tree.oriented_nodes.size() + tree.wide_nodes.size();
+}
+
+std::size_t top_nodes(const TreeImage& tree) {
+    return tree.binary_top.size() + tree.oriented_top.size() + tree.wide_top.size();
+}
 
 Json scene_report(const Input& input) {
     const Scene& scene = input.scene;
@@ -62,8 +68,14 @@ Json scene_report(const Input& input) {
 Json base_report(const Device& device, const Input& input, const Prepared& prepared,
                  const std::vector<std::string>& query) {
     const DeviceInfo& info = device.info();
-    Json options = {{"levels", name(prepared.options.levels)}, {"layout", name(prepared.options.layout)}};
-    if (prepared.report) options["morton"] = static_cast<int>(prepared.options.morton);
+    Json options = {{"levels", name(prepared.options.levels)},
+                    {"layout", name(prepared.options.layout)},
+                    {"bounds", name(prepared.options.bounds.kind)}};
+    if (prepared.report) {
+        options["extents"] = name(prepared.options.bounds.extents);
+        options["measure"] = name(prepared.options.bounds.measure);
+        options["morton"] = static_cast<int>(prepared.options.morton);
+    }
     std::vector<std::string> requirement_words = words(requirements(input.scene, prepared.options));
     requirement_words.insert(requirement_words.end(), query.begin(), query.end());
     const std::uint64_t build_peak = prepared.report ? prepared.report->peak_device_bytes : 0;

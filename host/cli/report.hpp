@@ -22,6 +22,10 @@ Json base_report(const Device& device, const Input& input, const Prepared& prepa
 /// Counts of a scene: "file", "meshes", "instances", "triangles", "vertices", "dropped_triangles", ...
 Json scene_report(const Input& input);
 
+/// Nodes of the layout.
+std::size_t bottom_nodes(const TreeImage& tree);
+std::size_t top_nodes(const TreeImage& tree);
+
 /// Writes the report, indented; nothing for an empty path. Throws InputError.
 void save_report(const std::filesystem::path& file, const Json& report);
 

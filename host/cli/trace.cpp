@@ -165,6 +165,7 @@ void print_summary(const Arguments& arguments, const Result& result) {
 }
 
 void run(const Arguments& arguments) {
+    arguments.choice.check();
     check_output(arguments.report, "");
     Progress progress(arguments.common.quiet, 4 + timed_runs);
     progress.step("reading " + arguments.input.string());

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "boxwood/collapse.hpp"
+#include "boxwood/error.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/requirements.hpp"
+#include "boxwood/volumes.hpp"
 #include "hierarchy/capacity.hpp"
 #include "hierarchy/forest.hpp"
 #include "hierarchy/quality.hpp"
@@ -48,7 +50,12 @@ Buffer<Aabb> triangle_boxes(Device& device, const Geometry& geometry) {
 /// Lays the forest's nodes out for traversal and keeps them in `tree`.
 void collapse_bottom(Device& device, const Forest& forest, const Geometry& geometry, Tree& tree) {
     const Stage stage(device, "collapse");
-    if (tree.layout == Layout::wide8) {
+    if (tree.bounds != Bounds::aabb) {
+        OrientedLayout layout = collapse_oriented(device, forest.topology, forest.volumes, forest.boxes, geometry);
+        tree.oriented_nodes = std::move(layout.nodes);
+        tree.triangles = std::move(layout.triangles);
+        tree.bottom_depth = layout.depth;
+    } else if (tree.layout == Layout::wide8) {
         WideLayout layout = collapse_wide(device, forest.topology, forest.volumes, geometry);
         tree.wide_nodes = std::move(layout.nodes);
         tree.blocks = std::move(layout.blocks);
@@ -62,7 +69,11 @@ void collapse_bottom(Device& device, const Forest& forest, const Geometry& geome
 }
 
 void collapse_top(Device& device, const Forest& forest, Tree& tree) {
-    if (tree.layout == Layout::wide8) {
+    if (tree.bounds != Bounds::aabb) {
+        OrientedLayout layout = collapse_oriented(device, forest.topology, forest.volumes, forest.boxes);
+        tree.oriented_top = std::move(layout.nodes);
+        tree.top_depth = layout.depth;
+    } else if (tree.layout == Layout::wide8) {
         WideLayout layout = collapse_wide(device, forest.topology, forest.volumes);
         tree.wide_top = std::move(layout.nodes);
         tree.top_depth = layout.depth;
@@ -73,9 +84,18 @@ void collapse_top(Device& device, const Forest& forest, Tree& tree) {
     }
 }
 
+/// The oriented box of each mesh: that of its tree's root.
+Buffer<Obb> root_boxes(Device& device, const Forest& forest) {
+    const std::size_t trees = forest.topology.trees();
+    Buffer<Obb> boxes = make_scratch<Obb>(device, trees, "oriented boxes of meshes");
+    launch(device, {"hierarchy/root_boxes.cl", "root_boxes"}, "root boxes", trees, forest.topology.offsets,
+           forest.boxes, boxes, static_cast<std::uint32_t>(trees), static_cast<std::uint32_t>(forest.topology.size()));
+    return boxes;
+}
+
 /// The tree over instances (dissertation 3.6.2): the same passes over the boxes of the placed meshes.
 void build_top_level(Device& device, const Scene& scene, const Geometry& geometry,
-                     const std::vector<std::uint32_t>& offsets, MortonBits morton, Parts& parts, Tree& tree) {
+                     const std::vector<std::uint32_t>& offsets, const BuildOptions& options, Parts& parts, Tree& tree) {
     const Stage stage(device, "top_level");
     parts.instances = instance_records(scene);
     for (InstanceRecord& record : parts.instances)
@@ -85,7 +105,10 @@ void build_top_level(Device& device, const Scene& scene, const Geometry& geometr
     parts.instance_boxes = make_scratch<Aabb>(device, count, "boxes of instances");
     launch(device, {"bounds/primitive_bounds.cl", "instance_bounds"}, "instance boxes", count, geometry.instances,
            parts.bottom.tree_bounds, parts.instance_boxes, count);
-    parts.top = build_forest(device, parts.instance_boxes, {0, count}, morton, "top_level");
+    parts.top = build_forest(device, parts.instance_boxes, {0, count}, options.morton, "top_level");
+    if (tree.bounds != Bounds::aabb)
+        parts.top.boxes = obb_volumes(device, parts.top.topology, parts.top.volumes, geometry.instances,
+                                      root_boxes(device, parts.bottom), options.bounds);
     collapse_top(device, parts.top, tree);
 }
 
@@ -97,12 +120,24 @@ std::vector<std::uint32_t> first_triangles(const Scene& scene) {
     return first;
 }
 
+/// The tree that a build starts from: `options` resolved. Throws InputError for a layout that cannot hold the volumes.
+Tree empty_tree(const BuildOptions& options) {
+    Tree tree;
+    tree.bounds = options.bounds.kind;
+    const bool oriented = tree.bounds != Bounds::aabb;
+    if (oriented && options.layout == Layout::wide8)
+        throw InputError("layout", std::string(name(options.layout)),
+                         "holds axis-aligned boxes only; oriented boxes (" + std::string(name(tree.bounds)) +
+                             ") need the layout binary");
+    tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
+    return tree;
+}
+
 /// `placed` is the scene itself for two levels, flattened for one.
 Tree build_placed(Device& device, const Scene& placed, const BuildOptions& options, bool two_levels, Parts& parts) {
-    Tree tree;
-    tree.layout = options.layout;
+    Tree tree = empty_tree(options);
     tree.levels = two_levels ? Levels::two : Levels::one;
-    check_capacity(device, tree.layout, placed.triangle_count(), placed.vertex_count(),
+    check_capacity(device, tree.layout, tree.bounds, placed.triangle_count(), placed.vertex_count(),
                    two_levels ? placed.instances.size() : 0);
     const Geometry geometry = upload(device, placed);
     parts.uploaded = Clock::now();
@@ -111,25 +146,29 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
         const Buffer<Aabb> boxes = triangle_boxes(device, geometry);
         parts.bottom = build_forest(device, boxes, offsets, options.morton);
     }
+    if (tree.bounds != Bounds::aabb) {
+        const Stage stage(device, "volumes");
+        parts.bottom.boxes = obb_volumes(device, parts.bottom.topology, parts.bottom.volumes, geometry, options.bounds);
+    }
     collapse_bottom(device, parts.bottom, geometry, tree);
-    if (two_levels) build_top_level(device, placed, geometry, offsets, options.morton, parts, tree);
+    if (two_levels) build_top_level(device, placed, geometry, offsets, options, parts, tree);
     device.finish();
     return tree;
 }
 
 void fill_quality(Device& device, const Tree& tree, const Parts& parts, BuildReport& report) {
     const ForestQuality bottom = measure(device, parts.bottom);
-    report.sum_area = bottom.sum_area;
-    report.sum_volume = bottom.sum_volume;
+    report.bottom = {bottom.sum_volume, bottom.sum_area, 0.0};
     report.sah = bottom.sah[0];
     if (tree.levels == Levels::two) {
         const ForestQuality top = measure(device, parts.top);
-        report.sum_area += top.sum_area;
-        report.sum_volume += top.sum_volume;
+        report.top = {top.sum_volume, top.sum_area, 0.0};
         report.sah = two_level_sah(bottom, top, download(device, parts.instance_boxes), parts.instances);
     }
+    report.all = {report.bottom.sum_volume + report.top.sum_volume, report.bottom.sum_area + report.top.sum_area, 0.0};
     report.max_depth = tree.bottom_depth + tree.top_depth;
-    report.nodes = tree.wide_nodes.size() + tree.wide_top.size() + tree.binary_nodes.size() + tree.binary_top.size();
+    report.nodes = tree.wide_nodes.size() + tree.wide_top.size() + tree.binary_nodes.size() + tree.binary_top.size() +
+                   tree.oriented_nodes.size() + tree.oriented_top.size();
 }
 
 bool is_flat(const Scene& scene) {
@@ -140,11 +179,10 @@ bool is_flat(const Scene& scene) {
 
 Tree build(Device& device, const Scene& scene, const BuildOptions& options, BuildReport* report) {
     const Requirements needs = requirements(scene, options);
+    Tree tree = empty_tree(options);
     if (scene.instances.empty()) {
-        Tree empty;
-        empty.layout = options.layout;
         if (report) *report = {};
-        return empty;
+        return tree;
     }
     device.take_profile();
     device.reset_peak();
@@ -152,11 +190,10 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
     const auto start = Clock::now();
 
     Parts parts;
-    Tree tree;
     if (needs.two_levels || is_flat(scene)) {
         tree = build_placed(device, scene, options, needs.two_levels, parts);
     } else {
-        check_capacity(device, options.layout, scene.instanced_triangle_count(), 0, 0);
+        check_capacity(device, tree.layout, tree.bounds, scene.instanced_triangle_count(), 0, 0);
         tree = build_placed(device, flatten(scene), options, false, parts);
     }
     if (needs.instance_lookup) tree.first_triangles = upload(device, first_triangles(scene), "first triangles");

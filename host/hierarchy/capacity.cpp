@@ -7,6 +7,7 @@
 #include "boxwood/error.hpp"
 #include "shared/aabb.h"
 #include "shared/instance.h"
+#include "shared/obb.h"
 
 namespace boxwood {
 
@@ -29,20 +30,25 @@ void check_each(const Device& device, std::initializer_list<Need> needs) {
 
 } // namespace
 
-void check_capacity(const Device& device, Layout layout, std::uint64_t triangles, std::uint64_t vertices,
+void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
                     std::uint64_t instances) {
     for (const std::uint64_t primitives : {triangles, instances})
         if (primitives > most_primitives)
             throw CapacityError("primitives in one level of a tree", primitives, most_primitives);
 
+    const bool oriented = bounds != Bounds::aabb;
     const std::uint64_t positions = 12 * vertices, indices = 12 * triangles;
     const std::uint64_t volumes = 2 * sizeof(Aabb) * triangles, topology = 24 * triangles;
-    const std::uint64_t binary_nodes = sizeof(BinaryNode) * triangles, records = sizeof(Triangle) * triangles;
+    const std::uint64_t boxes = oriented ? 2 * sizeof(Obb) * triangles : 0, sorted = oriented ? 36 * triangles : 0;
+    const std::uint64_t binary_nodes = (oriented ? sizeof(OrientedNode) : sizeof(BinaryNode)) * triangles;
+    const std::uint64_t records = sizeof(Triangle) * triangles;
     const std::uint64_t costs = 32 * triangles, blocks = sizeof(Triangle4) * (triangles / 4);
-    const std::uint64_t placed = sizeof(InstanceRecord) * instances, top = 2 * sizeof(Aabb) * instances;
+    const std::uint64_t placed = sizeof(InstanceRecord) * instances;
+    const std::uint64_t top = 2 * (oriented ? sizeof(Obb) : sizeof(Aabb)) * instances;
     check_each(device, {{"vertex positions", positions},
                         {"triangle indices", indices},
                         {"boxes of nodes", volumes},
+                        {"oriented boxes of nodes", boxes},
                         {"instances", placed},
                         {"boxes of the top level", top}});
     if (layout == Layout::binary)
@@ -50,9 +56,10 @@ void check_capacity(const Device& device, Layout layout, std::uint64_t triangles
     else
         check_each(device, {{"collapse costs", costs}, {"triangle blocks", blocks}});
 
-    // What is held at once at the least: while the layout is written from topology and volumes.
-    const std::uint64_t least = positions + indices + volumes + topology + placed +
-                                (layout == Layout::binary ? binary_nodes + records : blocks);
+    // What is held at once at the least: while the oriented boxes are fitted to the sorted vertices, or while the layout
+    // is written from topology and volumes.
+    const std::uint64_t result = layout == Layout::binary ? binary_nodes + records : blocks;
+    const std::uint64_t least = positions + indices + volumes + boxes + topology + placed + std::max(sorted, result);
     const std::uint64_t available =
         device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
     if (least > available)

@@ -218,16 +218,29 @@ Levels to_levels(std::string_view word) { return value_of(level_choices, "levels
 
 void validate(const TreeImage& tree, const Scene& scene, const std::string& file) {
     if (tree.levels == Levels::automatic) throw InputError(file, "levels", "must be one or two");
-    const bool has_binary = !tree.binary_nodes.empty() || !tree.triangles.empty() || !tree.binary_top.empty();
-    const bool has_wide = !tree.wide_nodes.empty() || !tree.blocks.empty() || !tree.wide_top.empty();
-    if (tree.layout == Layout::binary) {
-        if (has_wide) throw InputError(file, "wide_nodes, blocks and wide_top", "must be empty for layout binary");
+    if (tree.layout == Layout::automatic) throw InputError(file, "layout", "must be binary or wide8");
+    const bool oriented = tree.bounds != Bounds::aabb;
+    if (oriented && tree.layout != Layout::binary)
+        throw InputError(file, "bounds", "must be aabb for layout " + std::string(name(tree.layout)));
+    const auto refuse = [&](bool has, const char* arrays) {
+        if (has) throw InputError(file, arrays, "must be empty for this layout and these bounds");
+    };
+    const bool binary = tree.layout == Layout::binary;
+    refuse(!oriented && !(tree.oriented_nodes.empty() && tree.oriented_top.empty()), "oriented_nodes and oriented_top");
+    refuse((oriented || !binary) && !(tree.binary_nodes.empty() && tree.binary_top.empty()),
+           "binary_nodes and binary_top");
+    refuse(!binary && !tree.triangles.empty(), "triangles");
+    refuse(binary && !(tree.wide_nodes.empty() && tree.blocks.empty() && tree.wide_top.empty()),
+           "wide_nodes, blocks and wide_top");
+    if (oriented) {
+        const Arrays<OrientedNode, Triangle> arrays{tree.oriented_nodes, "oriented_nodes",  tree.triangles,
+                                                    "triangles",         tree.oriented_top, "oriented_top"};
+        check_layout(tree, scene, arrays, file);
+    } else if (binary) {
         const Arrays<BinaryNode, Triangle> arrays{tree.binary_nodes, "binary_nodes",  tree.triangles,
                                                   "triangles",       tree.binary_top, "binary_top"};
         check_layout(tree, scene, arrays, file);
     } else {
-        if (has_binary)
-            throw InputError(file, "binary_nodes, triangles and binary_top", "must be empty for layout wide8");
         const Arrays<Wide8Node, Triangle4> arrays{tree.wide_nodes, "wide_nodes",  tree.blocks,
                                                   "blocks",        tree.wide_top, "wide_top"};
         check_layout(tree, scene, arrays, file);

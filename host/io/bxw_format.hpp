@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The .bxw container, version 1. Little-endian, no padding, so that every byte is either compared or under a checksum:
+// The .bxw container, version 2. Little-endian, no padding, so that every byte is either compared or under a checksum:
 //
 //     Header
 //     SectionEntry[section_count]
@@ -55,24 +55,28 @@ struct TreeRecord {
     std::uint32_t levels; ///< 1 or 2
     std::uint32_t bottom_depth;
     std::uint32_t top_depth;
+    std::uint32_t
+        bounds; ///< 0 aabb, 1 obb-points, 2 obb-boxes, 3 obb-quaternion, 4 obb-cascade, 5 obb-moments, 6 obb-refined
 };
-static_assert(sizeof(TreeRecord) == 16);
+static_assert(sizeof(TreeRecord) == 20);
 
 struct SectionKind {
     std::string_view name;
     std::uint64_t element_size;
 };
 
-inline constexpr std::array<SectionKind, 12> section_kinds = {{
+inline constexpr std::array<SectionKind, 14> section_kinds = {{
     {"scene", 1},                      // see bxw_scene.hpp
     {"positions", sizeof(glm::vec3)},  // of all meshes, in mesh order
     {"triangles", sizeof(glm::uvec3)}, // of all meshes, indices within the mesh
     {"tree", sizeof(TreeRecord)},
     {"binary_nodes", sizeof(BinaryNode)}, // from here on the arrays of TreeImage
+    {"oriented_nodes", sizeof(OrientedNode)},
     {"leaf_triangles", sizeof(Triangle)},
     {"wide_nodes", sizeof(Wide8Node)},
     {"leaf_blocks", sizeof(Triangle4)},
     {"binary_top", sizeof(BinaryNode)},
+    {"oriented_top", sizeof(OrientedNode)},
     {"wide_top", sizeof(Wide8Node)},
     {"instances", sizeof(InstanceRecord)},
     {"first_triangles", sizeof(std::uint32_t)},

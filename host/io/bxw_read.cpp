@@ -29,7 +29,13 @@ Header read_header(std::istream& in, std::uint64_t size, const std::string& file
                              "; build the tree again or use a newer Boxwood");
     }
     if (!has(sizeof header)) throw InputError(file, "header", "the file is truncated");
-    if (header.version != bxw_version) throw InputError(file, "header", "there is no such format version");
+    if (header.version == 0) throw InputError(file, "header", "there is no such format version");
+    if (header.version < bxw_version) {
+        throw InputError(file, "header",
+                         "format version " + std::to_string(header.version) +
+                             " is older than this Boxwood, which reads " + std::to_string(bxw_version) +
+                             "; build the tree again");
+    }
     if (header.file_size != size) {
         throw InputError(file, "header",
                          (header.file_size > size ? "the file is truncated: " : "the file has trailing bytes: ") +
@@ -145,16 +151,20 @@ TreeImage read_tree(SectionReader& in, const std::string& file) {
     const TreeRecord& record = records.front();
     if (record.layout > 1) throw InputError(file, "section tree", "names an unknown layout");
     if (record.levels < 1 || record.levels > 2) throw InputError(file, "section tree", "must have one or two levels");
+    if (record.bounds >= all_bounds().size()) throw InputError(file, "section tree", "names unknown bounds");
     TreeImage tree;
+    tree.bounds = static_cast<Bounds>(record.bounds);
     tree.layout = record.layout == 0 ? Layout::binary : Layout::wide8;
     tree.levels = record.levels == 1 ? Levels::one : Levels::two;
     tree.bottom_depth = record.bottom_depth;
     tree.top_depth = record.top_depth;
     tree.binary_nodes = in.all<BinaryNode>("binary_nodes");
+    tree.oriented_nodes = in.all<OrientedNode>("oriented_nodes");
     tree.triangles = in.all<Triangle>("leaf_triangles");
     tree.wide_nodes = in.all<Wide8Node>("wide_nodes");
     tree.blocks = in.all<Triangle4>("leaf_blocks");
     tree.binary_top = in.all<BinaryNode>("binary_top");
+    tree.oriented_top = in.all<OrientedNode>("oriented_top");
     tree.wide_top = in.all<Wide8Node>("wide_top");
     tree.instances = in.all<InstanceRecord>("instances");
     tree.first_triangles = in.all<std::uint32_t>("first_triangles");

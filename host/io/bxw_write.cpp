@@ -22,7 +22,7 @@ Parts one_part(const std::vector<T>& elements) {
 
 TreeRecord record_of(const TreeImage& tree) {
     return {tree.layout == Layout::binary ? 0u : 1u, tree.levels == Levels::one ? 1u : 2u, tree.bottom_depth,
-            tree.top_depth};
+            tree.top_depth, static_cast<std::uint32_t>(tree.bounds)};
 }
 
 std::vector<SectionEntry> table_of(std::span<const Parts> sections) {
@@ -62,10 +62,12 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
                                                               std::move(triangles),
                                                               Parts{std::as_bytes(std::span(&record, 1))},
                                                               one_part(tree.binary_nodes),
+                                                              one_part(tree.oriented_nodes),
                                                               one_part(tree.triangles),
                                                               one_part(tree.wide_nodes),
                                                               one_part(tree.blocks),
                                                               one_part(tree.binary_top),
+                                                              one_part(tree.oriented_top),
                                                               one_part(tree.wide_top),
                                                               one_part(tree.instances),
                                                               one_part(tree.first_triangles)};

@@ -14,7 +14,9 @@ void any_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, Buffe
         launch(device, kernel, "any hit", slices.slices, nodes, leaves, top, tree.instances, rays, ray_count,
                slices.length, hits);
     };
-    if (tree.layout == Layout::wide8)
+    if (tree.bounds != Bounds::aabb)
+        run(tree.oriented_nodes, tree.triangles, tree.oriented_top);
+    else if (tree.layout == Layout::wide8)
         run(tree.wide_nodes, tree.blocks, tree.wide_top);
     else
         run(tree.binary_nodes, tree.triangles, tree.binary_top);

@@ -27,7 +27,9 @@ void trace(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferV
         launch(device, kernel, "closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.first_triangles,
                instance_count, rays, ray_count, slices.length, hits, statistics);
     };
-    if (tree.layout == Layout::wide8)
+    if (tree.bounds != Bounds::aabb)
+        run(tree.oriented_nodes, tree.triangles, tree.oriented_top);
+    else if (tree.layout == Layout::wide8)
         run(tree.wide_nodes, tree.blocks, tree.wide_top);
     else
         run(tree.binary_nodes, tree.triangles, tree.binary_top);

@@ -25,6 +25,7 @@ KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& op
     return {any ? "traverse/any_hit.cl" : "traverse/closest_hit.cl",
             any ? "any_hit" : "closest_hit",
             {{"LAYOUT", tree.layout == Layout::wide8 ? "8" : "2"},
+             {"ORIENTED", tree.bounds != Bounds::aabb ? "1" : "0"},
              {"LEVELS", tree.levels == Levels::two ? "2" : "1"},
              {"FLATTENED", flattened ? "1" : "0"},
              {"STATISTICS", query == Query::closest_with_statistics ? "1" : "0"},

@@ -16,7 +16,7 @@ struct BuildOptions {
     Levels levels = Levels::automatic; ///< automatic: two when a mesh is placed more than once, else one.
     Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
     MortonBits morton = MortonBits::bits30;
-    BoundsOptions bounds; ///< Oriented boxes need the binary layout.
+    BoundsOptions bounds = {}; ///< Oriented boxes need the binary layout.
 };
 
 /// Sums over the boxes of all binary nodes of one level, leaves included.
@@ -33,10 +33,10 @@ struct BuildReport {
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
     std::uint64_t peak_device_bytes = 0;
-    double sah = 0.0; ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
-    LevelQuality all; ///< Both levels.
-    LevelQuality bottom; ///< In object space, each mesh once.
-    LevelQuality top;    ///< In world space; zeros for one level.
+    double sah = 0.0;            ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
+    LevelQuality all;            ///< Both levels.
+    LevelQuality bottom;         ///< In object space, each mesh once.
+    LevelQuality top;            ///< In world space; zeros for one level.
     std::uint32_t max_depth = 0; ///< Of the layout, bottom plus top level.
     std::uint64_t nodes = 0;     ///< Of the layout, both levels.
 };

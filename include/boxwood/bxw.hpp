@@ -15,8 +15,8 @@ struct BxwFile {
     TreeImage tree;
 };
 
-/// Version that save_bxw writes and the newest that load_bxw reads.
-inline constexpr std::uint32_t bxw_version = 1;
+/// Version that save_bxw writes and the only one that load_bxw reads.
+inline constexpr std::uint32_t bxw_version = 2;
 
 /// Writes scene geometry and tree as a little-endian container (magic, version, section table, checksum per section;
 /// host/io/bxw_format.hpp has the layout), atomically: on failure nothing is left under `file`. Throws InputError when
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t bxw_version = 1;
 void save_bxw(const std::filesystem::path& file, const Scene& scene, const TreeImage& tree);
 
 /// Reads a .bxw file and validates its scene and tree. Throws InputError naming the file and the section or element for
-/// a file that is missing, truncated, corrupt, newer or hostile, whatever its counts claim. Each section is read into
+/// a file that is missing, truncated, corrupt, newer, older or hostile, whatever its counts claim. Each section is read into
 /// its final place: memory is about the file's size. O(bytes).
 BxwFile load_bxw(const std::filesystem::path& file);
 

@@ -48,7 +48,12 @@ TEST_CASE("report: the keys of every command") {
                {"bounds", "morton", "sort", "hierarchy", "volumes", "collapse", "top_level", "total"});
     check_keys(build["quality"], {"sah", "sum_volume", "sum_area", "max_depth", "nodes"});
     CHECK(build["requirements"] == Json{"two-levels"});
-    CHECK(build["options"] == Json{{"levels", "auto"}, {"layout", "wide8"}, {"morton", 30}});
+    CHECK(build["options"] == Json{{"levels", "auto"},
+                                   {"layout", "wide8"},
+                                   {"bounds", "aabb"},
+                                   {"extents", "exact"},
+                                   {"measure", "volume"},
+                                   {"morton", 30}});
     CHECK(build["quality"]["sah"] > 0.0);
 
     for (const std::string file : {"forest.glb", "forest.bxw"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target for the .bxw reader. The first byte of an input chooses: 255 is the rest as a file, which tries header
-// and table; below that, one of four sample files is edited and sealed with right checksums, which tries all that a
+// and table; below that, one of six sample files is edited and sealed with right checksums, which tries all that a
 // checksum would else keep from the fuzzer. An accepted file must be written and read again to the same values.
 #include <array>
 #include <cstddef>
@@ -20,14 +20,15 @@ namespace {
 
 constexpr std::uint8_t raw_file = 255;
 
-const std::array<std::vector<std::string>, 4>& samples() {
+const std::array<std::vector<std::string>, 6>& samples() {
     static const auto made = [] {
         const Scene scene = sample_scene();
-        std::array<std::vector<std::string>, 4> result;
+        std::array<std::vector<std::string>, 6> result;
         for (std::size_t i = 0; i < result.size(); ++i) {
-            const Layout layout = i & 1 ? Layout::wide8 : Layout::binary;
-            const Levels levels = i & 2 ? Levels::two : Levels::one;
-            result[i] = sections_of(bxw_bytes(scene, sample_tree(scene, layout, levels)));
+            const Layout layout = i % 3 == 1 ? Layout::wide8 : Layout::binary;
+            const Bounds bounds = i % 3 == 2 ? Bounds::obb_points : Bounds::aabb;
+            const Levels levels = i < 3 ? Levels::one : Levels::two;
+            result[i] = sections_of(bxw_bytes(scene, sample_tree(scene, layout, levels, bounds)));
         }
         return result;
     }();

@@ -75,16 +75,16 @@ TEST_CASE("build report: metrics of one level equal sums in double") {
     const TreeImage image = download(
         test_device(), build(test_device(), scene, {Levels::one, Layout::binary, MortonBits::bits30}, &report));
     const Metrics metrics = measure_tree(image.binary_nodes, 0);
-    CHECK(report.sum_area == doctest::Approx(metrics.area).epsilon(tolerance));
-    CHECK(report.sum_volume == doctest::Approx(metrics.volume).epsilon(tolerance));
+    CHECK(report.all.sum_area == doctest::Approx(metrics.area).epsilon(tolerance));
+    CHECK(report.all.sum_volume == doctest::Approx(metrics.volume).epsilon(tolerance));
     CHECK(report.sah == doctest::Approx(metrics.sah()).epsilon(tolerance));
     CHECK(report.max_depth == image.bottom_depth);
     CHECK(report.nodes == image.binary_nodes.size());
     // The metrics are those of the binary tree, whatever the layout.
     BuildReport wide;
     const Tree tree = build(test_device(), scene, {Levels::one, Layout::wide8, MortonBits::bits30}, &wide);
-    CHECK(wide.sum_area == report.sum_area);
-    CHECK(wide.sum_volume == report.sum_volume);
+    CHECK(wide.all.sum_area == report.all.sum_area);
+    CHECK(wide.all.sum_volume == report.all.sum_volume);
     CHECK(wide.sah == report.sah);
     CHECK(wide.nodes == tree.wide_nodes.size());
     CHECK(wide.max_depth == tree.bottom_depth);
@@ -108,8 +108,8 @@ TEST_CASE("build report: metrics of two levels equal sums in double") {
             if (node.child[slot] != BOXWOOD_NONE && (node.child[slot] & BOXWOOD_LEAF))
                 sah += area_of(node.bounds[slot]) / top.root_area *
                        bottom[image.instances[node.child[slot] & ~BOXWOOD_LEAF].mesh].sah();
-    CHECK(report.sum_area == doctest::Approx(area).epsilon(tolerance));
-    CHECK(report.sum_volume == doctest::Approx(volume).epsilon(tolerance));
+    CHECK(report.all.sum_area == doctest::Approx(area).epsilon(tolerance));
+    CHECK(report.all.sum_volume == doctest::Approx(volume).epsilon(tolerance));
     CHECK(report.sah == doctest::Approx(sah).epsilon(tolerance));
     CHECK(report.max_depth == image.bottom_depth + image.top_depth);
     CHECK(report.nodes == image.binary_nodes.size() + image.binary_top.size());
@@ -168,11 +168,11 @@ TEST_CASE("capacity: the largest buffer is a limit, for both layouts") {
     Device& device = test_device();
     const std::uint64_t largest = device.info().largest_buffer_bytes;
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
-        CHECK_NOTHROW(check_capacity(device, layout, 1000, 3000, 10));
-        CHECK_NOTHROW(check_capacity(device, layout, 0, 0, 0));
+        CHECK_NOTHROW(check_capacity(device, layout, Bounds::aabb, 1000, 3000, 10));
+        CHECK_NOTHROW(check_capacity(device, layout, Bounds::aabb, 0, 0, 0));
         const auto refused = [&](std::uint64_t triangles, std::uint64_t vertices, std::uint64_t instances) {
             try {
-                check_capacity(device, layout, triangles, vertices, instances);
+                check_capacity(device, layout, Bounds::aabb, triangles, vertices, instances);
             } catch (const CapacityError& error) {
                 return error.asked > error.available && error.available > 0;
             }
@@ -198,7 +198,7 @@ TEST_CASE("capacity: what the device holds already is not available") {
         // Each array fits a buffer; positions and boxes of nodes together do not fit what is left.
         const std::uint64_t vertices = bytes / 12, triangles = bytes / 64;
         try {
-            check_capacity(device, layout, triangles, vertices, 0);
+            check_capacity(device, layout, Bounds::aabb, triangles, vertices, 0);
             FAIL("did not throw");
         } catch (const CapacityError& error) {
             CHECK(error.available == left);
@@ -206,5 +206,5 @@ TEST_CASE("capacity: what the device holds already is not available") {
         }
     }
     held.clear();
-    CHECK_NOTHROW(check_capacity(device, Layout::wide8, 1000, 3000, 0));
+    CHECK_NOTHROW(check_capacity(device, Layout::wide8, Bounds::aabb, 1000, 3000, 0));
 }

@@ -21,9 +21,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Where validate refuses the sample tree after `change`; "accepted" when it does not.
 template <class Change>
-std::string refused_at(Layout layout, Levels levels, Change&& change) {
+std::string refused_at(Layout layout, Levels levels, Change&& change, Bounds bounds = Bounds::aabb) {
     Scene scene = sample_scene();
-    TreeImage tree = sample_tree(scene, layout, levels);
+    TreeImage tree = sample_tree(scene, layout, levels, bounds);
     if constexpr (std::is_invocable_v<Change, TreeImage&, Scene&>) {
         change(tree, scene);
     } else {
@@ -45,6 +45,11 @@ std::string binary(Change&& change) {
 template <class Change>
 std::string wide(Change&& change) {
     return refused_at(Layout::wide8, Levels::two, std::forward<Change>(change));
+}
+
+template <class Change>
+std::string oriented(Change&& change) {
+    return refused_at(Layout::binary, Levels::two, std::forward<Change>(change), Bounds::obb_refined);
 }
 
 /// A binary tree of `count` nodes that goes down on one side, and its scene: the deepest that many nodes can make.
@@ -71,7 +76,7 @@ TEST_CASE("names of layouts and levels go both ways") {
     for (const Levels levels : {Levels::automatic, Levels::one, Levels::two}) CHECK(to_levels(name(levels)) == levels);
     CHECK(name(Layout::wide8) == "wide8");
     CHECK(name(Levels::automatic) == "auto");
-    CHECK_THROWS_WITH_AS(to_layout("wide4"), "layout: wide4: unknown word; use one of binary, wide8", InputError);
+    CHECK_THROWS_WITH_AS(to_layout("wide4"), "layout: wide4: unknown word; use one of auto, binary, wide8", InputError);
     CHECK_THROWS_WITH_AS(to_levels(""), "levels: unknown word; use one of auto, one, two", InputError);
 }
 
@@ -80,6 +85,9 @@ TEST_CASE("the sample trees are valid and have the depths that their sizes give"
         for (const Levels levels : {Levels::one, Levels::two})
             CHECK(refused_at(layout, levels, [](auto&) {}) == "accepted");
     }
+    for (const Levels levels : {Levels::one, Levels::two})
+        CHECK(refused_at(
+                  Layout::binary, levels, [](auto&) {}, Bounds::obb_points) == "accepted");
     const Scene scene = sample_scene();
     // Halving 37 leaves needs 6 levels, 39 too; 10 blocks need 2 of width 8; 3 instances need 2 of width 2.
     CHECK(sample_tree(scene, Layout::binary, Levels::two).bottom_depth == 6);
@@ -105,6 +113,14 @@ TEST_CASE("arrays of the other layout or of the other number of levels are refus
     CHECK(wide([](TreeImage& t) { t.binary_nodes.resize(1); }) != "accepted");
     CHECK(wide([](TreeImage& t) { t.triangles.resize(1); }) != "accepted");
     CHECK(wide([](TreeImage& t) { t.binary_top.resize(1); }) != "accepted");
+    CHECK(binary([](TreeImage& t) { t.oriented_nodes.resize(1); }) != "accepted");
+    CHECK(wide([](TreeImage& t) { t.oriented_top.resize(1); }) != "accepted");
+    CHECK(oriented([](TreeImage& t) { t.binary_nodes.resize(1); }) != "accepted");
+    CHECK(oriented([](TreeImage& t) { t.wide_top.resize(1); }) != "accepted");
+    CHECK(oriented([](TreeImage& t) { t.bounds = Bounds::aabb; }) != "accepted");
+    CHECK(oriented([](TreeImage& t) { t.layout = Layout::wide8; }) == "bounds");
+    CHECK(wide([](TreeImage& t) { t.bounds = Bounds::obb_boxes; }) == "bounds");
+    CHECK(wide([](TreeImage& t) { t.layout = Layout::automatic; }) == "layout");
     CHECK(wide([](TreeImage& t) { t.levels = Levels::automatic; }) == "levels");
     CHECK(wide([](TreeImage& t) { t.levels = Levels::one; }) == "wide_top");
     CHECK(wide([](TreeImage& t) { t.layout = Layout::binary; }) != "accepted");
@@ -181,6 +197,47 @@ TEST_CASE("boxes that no ray test can use are refused") {
     CHECK(binary([](TreeImage& t) { t.binary_nodes[1].bounds[0].min[0] = infinity; }) == "binary_nodes[1].child[0]");
     CHECK(wide([](TreeImage& t) { t.wide_nodes[1].min_y[3] = not_a_number; }) == "wide_nodes[1].child[3]");
     CHECK(wide([](TreeImage& t) { t.wide_top[0].max_z[0] = -infinity; }) == "wide_top[0].child[0]");
+}
+
+TEST_CASE("oriented boxes that no ray test can use are refused") {
+    // Node 0 is the tree over one triangle. In the sample, slots with even references are aligned, the others are not.
+    const auto slot_of = [](const TreeImage& t, bool aligned) {
+        for (std::uint32_t node = 1; node < t.oriented_nodes.size(); ++node)
+            for (std::uint32_t slot = 0; slot < 2; ++slot)
+                if (((t.oriented_nodes[node].child[slot] & BOXWOOD_ALIGNED) != 0) == aligned)
+                    return std::pair(node, slot);
+        FAIL("the sample lacks such a slot");
+        return std::pair(0u, 0u);
+    };
+    std::string where;
+    const auto with = [&](bool aligned, auto&& change) {
+        return oriented([&](TreeImage& t) {
+            const auto [node, slot] = slot_of(t, aligned);
+            where = "oriented_nodes[" + std::to_string(node) + "].child[" + std::to_string(slot) + "]";
+            change(t.oriented_nodes[node].volume[slot], t.oriented_nodes[node].child[slot]);
+        });
+    };
+    using Reference = std::uint32_t;
+    CHECK(with(true, [](float* v, Reference&) { std::swap(v[0], v[3]); }) == where);
+    CHECK(with(true, [](float* v, Reference&) { v[4] = not_a_number; }) == where);
+    CHECK(with(true, [](float* v, Reference&) { v[14] = 1.0f; }) == where);
+    CHECK(with(true, [](float*, Reference& r) { r &= ~BOXWOOD_ALIGNED; }) == where); // no axes
+    CHECK(with(true, [](float*, Reference& r) { r |= 0x3fffffffu; }) != "accepted");
+    CHECK(with(false, [](float* v, Reference&) { v[0] = infinity; }) == where);
+    CHECK(with(false, [](float* v, Reference&) { v[3] = -1.0f; }) == where);
+    CHECK(with(false, [](float* v, Reference&) { v[5] = not_a_number; }) == where);
+    CHECK(with(false, [](float* v, Reference&) { v[14] = -infinity; }) == where);
+    CHECK(with(false, [](float* v, Reference&) { v[7] = v[10] = v[13] = 0.0f; }) == where);
+    CHECK(with(false, [](float*, Reference& r) { r |= BOXWOOD_ALIGNED; }) == where); // axes behind the box
+    CHECK(oriented([](TreeImage& t) { t.oriented_nodes[0].volume[1][0] = 0; }) == "oriented_nodes[0].child[1]");
+    CHECK(oriented([](TreeImage& t) { t.oriented_nodes[0].volume[1][9] = 1; }) == "oriented_nodes[0].child[1]");
+    CHECK(oriented([](TreeImage& t) { // the same child again, aligned or not
+              std::uint32_t* child = t.oriented_nodes[1].child;
+              child[0] = (child[1] & ~BOXWOOD_ALIGNED) | (child[0] & BOXWOOD_ALIGNED);
+          }) == "oriented_nodes[1].child[1]");
+    CHECK(oriented([](TreeImage& t) { t.oriented_nodes[1].child[1] = BOXWOOD_NONE; }) == "oriented_nodes[1]");
+    CHECK(oriented([](TreeImage& t) { ++t.bottom_depth; }) == "bottom_depth");
+    CHECK(oriented([](TreeImage& t) { t.oriented_top.clear(); }) == "oriented_top");
 }
 
 TEST_CASE("a slot that is not in use must be empty") {

@@ -15,7 +15,13 @@ using namespace boxwood::test;
 
 namespace {
 
-constexpr std::array<Layout, 2> layouts = {Layout::binary, Layout::wide8};
+/// A layout with the volumes that it holds.
+struct Volumes {
+    Layout layout;
+    Bounds bounds;
+};
+constexpr std::array<Volumes, 3> layouts = {
+    {{Layout::binary, Bounds::aabb}, {Layout::wide8, Bounds::aabb}, {Layout::binary, Bounds::obb_moments}}};
 constexpr std::array<Levels, 2> level_choices = {Levels::one, Levels::two};
 
 /// The InputError of reading `bytes`: "where: what", or "accepted".
@@ -31,9 +37,9 @@ std::string refusal(const std::string& bytes) {
 
 bool mentions(const std::string& text, const std::string& word) { return text.find(word) != std::string::npos; }
 
-std::string sample_bytes(Layout layout, Levels levels) {
+std::string sample_bytes(Volumes volumes, Levels levels) {
     const Scene scene = sample_scene();
-    return bxw_bytes(scene, sample_tree(scene, layout, levels));
+    return bxw_bytes(scene, sample_tree(scene, volumes.layout, levels, volumes.bounds));
 }
 
 /// Overwrites the bytes of `text` at `offset` with those of `value`.
@@ -54,12 +60,13 @@ constexpr std::size_t binary_nodes_section = 4;
 TEST_CASE("a .bxw file gives back scene and tree, bit for bit") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "sample.bxw";
-    for (const Layout layout : layouts) {
+    for (const Volumes& volumes : layouts) {
         for (const Levels levels : level_choices) {
-            CAPTURE(name(layout));
+            CAPTURE(name(volumes.layout));
+            CAPTURE(name(volumes.bounds));
             CAPTURE(name(levels));
             const Scene scene = sample_scene();
-            const TreeImage tree = sample_tree(scene, layout, levels);
+            const TreeImage tree = sample_tree(scene, volumes.layout, levels, volumes.bounds);
             save_bxw(file, scene, tree);
             const BxwFile loaded = load_bxw(file);
             CHECK(same(loaded.scene, scene));
@@ -93,15 +100,15 @@ TEST_CASE("a tree that does not fit the scene is not written") {
 }
 
 TEST_CASE("the file on disk has the documented layout") {
-    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(bytes.substr(0, 8) == "\x89"
                                 "BXW\r\n\x1a\n");
-    CHECK(bytes.substr(8, 4) == std::string("\x01\0\0\0", 4));  // version 1, little-endian
-    CHECK(bytes.substr(12, 4) == std::string("\x0c\0\0\0", 4)); // twelve sections
+    CHECK(bytes.substr(8, 4) == std::string("\x02\0\0\0", 4));  // version 2, little-endian
+    CHECK(bytes.substr(12, 4) == std::string("\x0e\0\0\0", 4)); // fourteen sections
     CHECK(std::string(bytes.data() + 32) == "scene");
-    // 32 bytes of header and 12 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    // 32 bytes of header and 14 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
     const auto table = table_of(bytes);
-    CHECK(table[0].offset == 608);
+    CHECK(table[0].offset == 704);
     CHECK(table[1].size == 42 * 12);
     float x = 0;
     std::memcpy(&x, bytes.data() + table[1].offset + 12, sizeof x);
@@ -109,8 +116,8 @@ TEST_CASE("the file on disk has the documented layout") {
 }
 
 TEST_CASE("a .bxw file cut at any byte is refused") {
-    for (const Layout layout : layouts) {
-        const std::string bytes = sample_bytes(layout, Levels::two);
+    for (const Volumes& volumes : layouts) {
+        const std::string bytes = sample_bytes(volumes, Levels::two);
         for (std::size_t size = 0; size < bytes.size(); ++size) {
             CAPTURE(size);
             const std::string what = refusal(bytes.substr(0, size));
@@ -120,8 +127,8 @@ TEST_CASE("a .bxw file cut at any byte is refused") {
 }
 
 TEST_CASE("a .bxw file with any byte flipped is refused") {
-    for (const Layout layout : layouts) {
-        std::string bytes = sample_bytes(layout, Levels::two);
+    for (const Volumes& volumes : layouts) {
+        std::string bytes = sample_bytes(volumes, Levels::two);
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             CAPTURE(i);
             const char byte = bytes[i];
@@ -136,24 +143,32 @@ TEST_CASE("a .bxw file with any byte flipped is refused") {
 }
 
 TEST_CASE("a .bxw file with bytes behind its end is refused") {
-    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(mentions(refusal(bytes + '\0'), "trailing"));
     CHECK(mentions(refusal(bytes + bytes), "trailing"));
 }
 
 TEST_CASE("a file that ends earlier than its size said is refused") { // it shrank while it was read
-    const std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    const std::string bytes = sample_bytes(layouts[0], Levels::one);
     std::istringstream in(bytes.substr(0, bytes.size() - 1));
     CHECK_THROWS_AS(bxw::read(in, bytes.size(), "test.bxw"), InputError);
 }
 
 TEST_CASE("a newer .bxw file is refused as newer, whatever follows its version") {
-    std::string bytes = sample_bytes(Layout::binary, Levels::one);
+    std::string bytes = sample_bytes(layouts[0], Levels::one);
     poke(bytes, 8, bxw_version + 1);
     CHECK(mentions(refusal(bytes), "newer"));
     CHECK(mentions(refusal(bytes.substr(0, 12)), "newer"));
     poke(bytes, 8, 0u);
     CHECK(mentions(refusal(bytes), "no such format version"));
+}
+
+TEST_CASE("an older .bxw file is refused as older") {
+    std::string bytes = sample_bytes(layouts[0], Levels::one);
+    for (std::uint32_t version = 1; version < bxw_version; ++version) {
+        poke(bytes, 8, version);
+        CHECK(mentions(refusal(bytes), "older"));
+    }
 }
 
 TEST_CASE("what is not a .bxw file is told apart and refused by its name") {
@@ -181,7 +196,7 @@ TEST_CASE("what is not a .bxw file is told apart and refused by its name") {
 }
 
 TEST_CASE("a section table that lies is refused, its checksum being right") {
-    const std::string bytes = sample_bytes(Layout::binary, Levels::two);
+    const std::string bytes = sample_bytes(layouts[0], Levels::two);
     const auto sections = sections_of(bytes);
     const auto table = table_of(bytes);
     REQUIRE(seal(sections) == bytes);
@@ -210,7 +225,7 @@ TEST_CASE("a section table that lies is refused, its checksum being right") {
 }
 
 TEST_CASE("counts beyond their section are refused before memory is taken") {
-    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
     // Offsets follow from bxw_scene.hpp: three counts, the mesh count, then the first mesh ("one") and its sizes.
     constexpr std::size_t mesh_count = 24;
     constexpr std::size_t name_size = 32;
@@ -231,7 +246,7 @@ TEST_CASE("counts beyond their section are refused before memory is taken") {
 }
 
 TEST_CASE("the scene section is refused when it is cut at any byte") {
-    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
     for (std::size_t size = 0; size < original[scene_section].size(); ++size) {
         CAPTURE(size);
         auto sections = original;
@@ -241,7 +256,7 @@ TEST_CASE("the scene section is refused when it is cut at any byte") {
 }
 
 TEST_CASE("a hostile element is refused although every checksum is right") {
-    const auto original = sections_of(sample_bytes(Layout::binary, Levels::two));
+    const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
     const auto hostile = [&](auto&& change) {
         auto sections = original;
         change(sections);
@@ -254,6 +269,8 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 0, 2u); }), "layout"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 16, 7u); }), "unknown bounds"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 16, 1u); }), "binary_nodes"));
     CHECK(mentions(hostile([](auto& s) { s[tree_section] += s[tree_section]; }), "section tree"));
     CHECK(mentions(hostile([](auto& s) { s[tree_section].clear(); }), "section tree"));
     // child[0] of the first node lies behind its two boxes
@@ -263,12 +280,12 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
 }
 
 TEST_CASE("whatever an attacker writes over one word, reading refuses it or gives a tree that validates") {
-    // All four arrangements, every word, the values that break index arithmetic.
+    // All six arrangements, every word, the values that break index arithmetic.
     std::size_t accepted = 0;
     std::size_t refused = 0;
-    for (const Layout layout : layouts) {
+    for (const Volumes& volumes : layouts) {
         for (const Levels levels : level_choices) {
-            const auto original = sections_of(sample_bytes(layout, levels));
+            const auto original = sections_of(sample_bytes(volumes, levels));
             for (std::size_t section = 0; section < original.size(); ++section) {
                 for (std::size_t offset = 0; offset + 4 <= original[section].size(); offset += 4) {
                     for (const std::uint32_t value : {0u, 1u, 0x80000000u, 0xffffffffu, 0x7f800000u}) {

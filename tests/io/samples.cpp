@@ -44,6 +44,20 @@ void set_slot(BinaryNode& node, std::size_t slot, const Item& item) {
     node.child[slot] = item.reference;
 }
 
+void set_slot(OrientedNode& node, std::size_t slot, const Item& item) {
+    float* volume = node.volume[slot];
+    const bool aligned = item.reference == BOXWOOD_NONE || item.reference % 2 == 0;
+    node.child[slot] = item.reference | (aligned ? BOXWOOD_ALIGNED : 0u);
+    std::fill_n(volume, 15, 0.0f);
+    for (int k = 0; k < 3; ++k) {
+        const float low = item.box.min[k], high = item.box.max[k];
+        const int axis = (k + 1) % 3; // row `axis` of the axes is unit vector k
+        volume[k] = aligned ? low : 0.5f * (low + high);
+        volume[3 + (aligned ? k : axis)] = aligned ? high : 0.5f * (high - low);
+        if (!aligned) volume[6 + 3 * k + axis] = 1.0f;
+    }
+}
+
 void set_slot(Wide8Node& node, std::size_t slot, const Item& item) {
     node.min_x[slot] = item.box.min[0];
     node.min_y[slot] = item.box.min[1];
@@ -55,12 +69,13 @@ void set_slot(Wide8Node& node, std::size_t slot, const Item& item) {
 }
 
 void set_count(BinaryNode&, std::size_t) {}
+void set_count(OrientedNode&, std::size_t) {}
 void set_count(Wide8Node& node, std::size_t count) { node.count = static_cast<std::uint32_t>(count); }
 
 /// Appends the tree over `items`, root first, and returns its depth.
 template <class Node>
 std::uint32_t append_tree(std::vector<Node>& nodes, std::span<const Item> items) {
-    constexpr std::size_t width = std::is_same_v<Node, BinaryNode> ? 2 : 8;
+    constexpr std::size_t width = std::is_same_v<Node, Wide8Node> ? 8 : 2;
     const std::size_t self = nodes.size();
     nodes.emplace_back();
     for (std::size_t slot = 0; slot < width; ++slot) set_slot(nodes[self], slot, {empty_box, BOXWOOD_NONE});
@@ -211,11 +226,14 @@ Scene sample_scene() {
     return scene;
 }
 
-TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels) {
+TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds) {
     TreeImage tree;
     tree.layout = layout;
     tree.levels = levels;
-    if (layout == Layout::binary) {
+    tree.bounds = bounds;
+    if (bounds != Bounds::aabb) {
+        build(tree, scene, tree.oriented_nodes, tree.triangles, tree.oriented_top);
+    } else if (layout == Layout::binary) {
         build(tree, scene, tree.binary_nodes, tree.triangles, tree.binary_top);
     } else {
         build(tree, scene, tree.wide_nodes, tree.blocks, tree.wide_top);
@@ -240,12 +258,13 @@ bool same(const Scene& a, const Scene& b) {
 }
 
 bool same(const TreeImage& a, const TreeImage& b) {
-    return a.layout == b.layout && a.levels == b.levels && same_bytes(a.binary_nodes, b.binary_nodes) &&
-           same_bytes(a.triangles, b.triangles) && same_bytes(a.wide_nodes, b.wide_nodes) &&
-           same_bytes(a.blocks, b.blocks) && same_bytes(a.binary_top, b.binary_top) &&
-           same_bytes(a.wide_top, b.wide_top) && same_bytes(a.instances, b.instances) &&
-           same_bytes(a.first_triangles, b.first_triangles) && a.bottom_depth == b.bottom_depth &&
-           a.top_depth == b.top_depth;
+    return a.layout == b.layout && a.levels == b.levels && a.bounds == b.bounds &&
+           same_bytes(a.binary_nodes, b.binary_nodes) && same_bytes(a.oriented_nodes, b.oriented_nodes) &&
+           same_bytes(a.oriented_top, b.oriented_top) && same_bytes(a.triangles, b.triangles) &&
+           same_bytes(a.wide_nodes, b.wide_nodes) && same_bytes(a.blocks, b.blocks) &&
+           same_bytes(a.binary_top, b.binary_top) && same_bytes(a.wide_top, b.wide_top) &&
+           same_bytes(a.instances, b.instances) && same_bytes(a.first_triangles, b.first_triangles) &&
+           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -13,8 +13,9 @@ namespace boxwood::test {
 /// twice), one camera of each kind, a warning and counts.
 Scene sample_scene();
 
-/// The tree of a scene, halved by triangle order. Quality does not matter here; every promise of TreeImage does.
-TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels);
+/// The tree of a scene, halved by triangle order. Quality does not matter here; every promise of TreeImage does. With
+/// oriented bounds every other volume stays aligned, and the others are the same boxes with their axes exchanged.
+TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds = Bounds::aabb);
 
 /// Equality of everything, floats by their bits.
 bool same(const Scene& a, const Scene& b);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The leaves of the binary layouts.
+// compile:
+#include "runtime/numerics.h"
+#include "hierarchy/forest.h"
+#include "shared/triangle.h"
+
+/// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh, for the positions
+/// of one slice.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void triangle_records(global const uint* order, global const uint* offsets, global const float* positions,
+                      global const uint* triangles, global Triangle* records, uint trees, uint count, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    if (begin >= count) return;
+    const uint end = min(begin + slice, count);
+    uint tree = tree_of(offsets, trees, begin);
+    for (uint i = begin; i < end; ++i) {
+        while (i >= offsets[tree + 1]) ++tree;
+        const uint primitive = order[i];
+        global const uint* corner = triangles + 3 * (size_t)primitive;
+        Triangle record;
+        for (int k = 0; k < 3; ++k) {
+            const float a = positions[3 * (size_t)corner[0] + k];
+            record.v0[k] = a;
+            record.edge1[k] = positions[3 * (size_t)corner[1] + k] - a;
+            record.edge2[k] = positions[3 * (size_t)corner[2] + k] - a;
+        }
+        record.primitive = primitive - offsets[tree];
+        record.reserved1 = record.reserved2 = 0;
+        records[i] = record;
+    }
+}
