@@ -26,6 +26,8 @@ constexpr std::array kinds{
     Kind{"sphere", "a closed unit sphere", make_sphere},
     Kind{"forest", "instanced trees of three kinds on a plane", make_forest},
     Kind{"menger", "the outside of a Menger sponge", make_menger},
+    Kind{"hair", "bundles of long strands that lean away from the axes", make_hair},
+    Kind{"planks", "piles of long boards, each pile turned at random", make_planks},
 };
 
 } // namespace

@@ -72,10 +72,11 @@ TEST_CASE("every kind is valid, has a camera, and depends on nothing but its opt
         CHECK(scene.cameras.size() == 1);
         CHECK(scene.triangle_count() > 0);
         CHECK(digest(scene) == digest(make_procedural(kind.name)));
-        const bool seeded = kind.name == "random" || kind.name == "terrain" || kind.name == "forest";
+        const bool seeded = kind.name == "random" || kind.name == "terrain" || kind.name == "forest" ||
+                            kind.name == "hair" || kind.name == "planks";
         CHECK((digest(scene) != digest(make_procedural(kind.name, {0, 0, 2}))) == seeded);
     }
-    CHECK(procedural_kinds().size() == 6);
+    CHECK(procedural_kinds().size() == 8);
 }
 
 TEST_CASE("triangle counts are reached from below as closely as the shape allows") {
@@ -97,6 +98,10 @@ TEST_CASE("triangle counts are reached from below as closely as the shape allows
     CHECK(count("menger", 143) == 12);
     CHECK(count("menger", 144) == 144);
     CHECK(count("menger", 40'000) == 4 * 8000 + 8 * 512);
+    CHECK(count("hair", 1) == 74);
+    CHECK(count("hair", 40'000) == 540 * 74);
+    CHECK(count("planks", 1) == 12);
+    CHECK(count("planks", 40'000) == 3333 * 12);
 }
 
 TEST_CASE("the sphere is closed, outward and shares every vertex") {
@@ -186,6 +191,48 @@ TEST_CASE("the forest has the instances it was asked for, standing on its ground
     }
 }
 
+TEST_CASE("planks are closed boards of fixed shape, turned off the axes") {
+    // 1 board; 9: the second pile has one; 4000: the default.
+    for (const std::uint64_t boards : {1, 9, 4000}) {
+        CAPTURE(boards);
+        const Scene scene = make_procedural("planks", {12 * boards});
+        const Mesh& mesh = scene.meshes[0];
+        REQUIRE(mesh.positions.size() == 8 * boards);
+        CHECK(is_closed(mesh));
+        const glm::dvec3 p0(mesh.positions[0]);
+        const double length = glm::length(glm::dvec3(mesh.positions[1]) - p0);
+        const double width = glm::length(glm::dvec3(mesh.positions[2]) - p0);
+        const double thickness = glm::length(glm::dvec3(mesh.positions[4]) - p0);
+        CHECK(length == doctest::Approx(32 * width).epsilon(1e-4));
+        CHECK(width == doctest::Approx(4 * thickness).epsilon(1e-3));
+        CHECK(volume(mesh) == doctest::Approx(static_cast<double>(boards) * length * width * thickness).epsilon(1e-3));
+        // Rotations are spread evenly: the mean of the squared direction is a third on each axis. 500 piles give it
+        // to 0.3 / sqrt(500); four times that is allowed.
+        if (boards < 4000) continue;
+        glm::dvec3 mean(0.0);
+        for (std::size_t i = 0; i < boards; ++i) {
+            const glm::dvec3 edge = glm::dvec3(mesh.positions[8 * i + 1]) - glm::dvec3(mesh.positions[8 * i]);
+            mean += edge * edge / (length * length) / static_cast<double>(boards);
+        }
+        for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(mean[axis] - 1.0 / 3.0) < 0.054);
+    }
+}
+
+TEST_CASE("strands of hair are closed, slender, and lean between the axes") {
+    const Scene scene = make_procedural("hair", {74 * 100});
+    const Mesh& mesh = scene.meshes[0];
+    REQUIRE(mesh.triangles.size() == 74 * 100);
+    CHECK(is_closed(mesh));
+    CHECK(volume(mesh) > 0.0);
+    for (std::size_t strand = 0; strand < 100; ++strand) {
+        const glm::dvec3 root(mesh.positions[39 * strand]), next(mesh.positions[39 * strand + 3]);
+        const glm::dvec3 tip(mesh.positions[39 * strand + 36]);
+        CHECK(glm::length(tip - root) > 10 * glm::length(glm::dvec3(mesh.positions[39 * strand + 1]) - root));
+        const glm::dvec3 direction = glm::normalize(next - root);
+        for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(direction[axis]) > 0.25);
+    }
+}
+
 TEST_CASE("splitmix64 gives its published sequence") {
     Random random(1234567); // reference values of the algorithm for this seed
     CHECK(random.bits() == 6457827717110365317u);
@@ -195,7 +242,8 @@ TEST_CASE("splitmix64 gives its published sequence") {
 
 TEST_CASE("an unknown kind or an endless count is refused") {
     CHECK_THROWS_WITH_AS(make_procedural("bunny"),
-                         doctest::Contains("cornell, random, terrain, sphere, forest, menger"), InputError);
+                         doctest::Contains("cornell, random, terrain, sphere, forest, menger, hair, planks"),
+                         InputError);
     CHECK_THROWS_AS(make_procedural("random", {std::uint64_t{1} << 31}), InputError);
     CHECK_THROWS_AS(make_procedural("forest", {0, std::uint64_t{1} << 31}), InputError);
 }
