@@ -27,14 +27,23 @@ Json passes_report(const Prepared& prepared) {
     return passes;
 }
 
+Json level_report(const LevelQuality& level) {
+    return {{"sum_volume", level.sum_volume},
+            {"sum_area", level.sum_area},
+            {"obb_smaller_fraction", level.obb_smaller_fraction}};
+}
+
 Json quality_report(const Input& input, const Prepared& prepared) {
     if (prepared.report) {
         const BuildReport& report = *prepared.report;
         return {{"sah", report.sah},
                 {"sum_volume", report.all.sum_volume},
                 {"sum_area", report.all.sum_area},
+                {"obb_smaller_fraction", report.all.obb_smaller_fraction},
                 {"max_depth", report.max_depth},
-                {"nodes", report.nodes}};
+                {"nodes", report.nodes},
+                {"bottom", level_report(report.bottom)},
+                {"top", level_report(report.top)}};
     }
     const TreeImage& tree = *input.tree;
     return {{"max_depth", tree.bottom_depth + tree.top_depth}, {"nodes", bottom_nodes(tree) + top_nodes(tree)}};

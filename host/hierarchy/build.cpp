@@ -158,14 +158,14 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
 
 void fill_quality(Device& device, const Tree& tree, const Parts& parts, BuildReport& report) {
     const ForestQuality bottom = measure(device, parts.bottom);
-    report.bottom = {bottom.sum_volume, bottom.sum_area, 0.0};
+    report.bottom = report.all = bottom.sums;
     report.sah = bottom.sah[0];
     if (tree.levels == Levels::two) {
-        const ForestQuality top = measure(device, parts.top);
-        report.top = {top.sum_volume, top.sum_area, 0.0};
-        report.sah = two_level_sah(bottom, top, download(device, parts.instance_boxes), parts.instances);
+        const ForestQuality top = measure(device, parts.top, true);
+        report.top = top.sums;
+        report.all = total(bottom, top);
+        report.sah = two_level_sah(bottom, top, parts.instances);
     }
-    report.all = {report.bottom.sum_volume + report.top.sum_volume, report.bottom.sum_area + report.top.sum_area, 0.0};
     report.max_depth = tree.bottom_depth + tree.top_depth;
     report.nodes = tree.wide_nodes.size() + tree.wide_top.size() + tree.binary_nodes.size() + tree.binary_top.size() +
                    tree.oriented_nodes.size() + tree.oriented_top.size();

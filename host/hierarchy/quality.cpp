@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "boxwood/reduce.hpp"
 #include "boxwood/segmented_reduce.hpp"
@@ -12,73 +13,102 @@ namespace boxwood {
 
 namespace {
 
-double surface_area(const Aabb& box) {
-    const double x = static_cast<double>(box.max[0]) - box.min[0];
-    const double y = static_cast<double>(box.max[1]) - box.min[1];
-    const double z = static_cast<double>(box.max[2]) - box.min[2];
-    return 2.0 * (x * y + y * z + z * x);
-}
-
-/// A power of two near the largest extent, so that scaling by it is exact.
-float unit_of(const std::vector<Aabb>& boxes) {
-    float largest = 0.0f;
-    for (const Aabb& box : boxes)
-        for (int k = 0; k < 3; ++k) largest = std::max(largest, box.max[k] - box.min[k]);
-    return largest > 0.0f ? std::ldexp(1.0f, std::max(std::ilogb(largest), -100)) : 1.0f;
-}
-
-/// Sums of one half of the nodes (inner nodes or leaves), per tree.
-struct HalfSums {
+/// Measures of one half of the nodes (inner nodes or leaves): each node's area, and sums per tree.
+struct Half {
+    Buffer<float> node_areas;
     std::vector<float> areas;
     std::vector<float> volumes;
+    std::uint32_t fitted = 0; ///< Nodes that do not keep their AABB.
 };
 
-HalfSums sum_half(Device& device, const Forest& forest, std::uint32_t first, float unit) {
+Half measure_half(Device& device, const Forest& forest, std::uint32_t first, float unit) {
     const auto count = static_cast<std::uint32_t>(forest.topology.size());
-    const std::size_t trees = forest.topology.trees();
-    const Buffer<float> areas = make_scratch<float>(device, count, "areas of nodes");
+    Half half;
+    half.node_areas = make_scratch<float>(device, count, "areas of nodes");
     const Buffer<float> volumes = make_scratch<float>(device, count, "volumes of nodes");
-    launch(device, {"hierarchy/quality.cl", "node_measures"}, "node measures", count, forest.volumes, areas, volumes,
-           unit, first, count);
-    const Buffer<float> sums = make_scratch<float>(device, trees, "sums over trees");
-    HalfSums result;
-    segmented_reduce<float>(device, areas, forest.topology.offsets, Operator::sum, sums);
-    result.areas = download(device, sums);
+    if (forest.boxes.size() == 0) {
+        launch(device, {"hierarchy/quality.cl", "aabb_measures"}, "node measures", count, forest.volumes,
+               half.node_areas, volumes, unit, first, count);
+    } else {
+        const Buffer<std::uint32_t> fitted = make_scratch<std::uint32_t>(device, count, "fitted nodes");
+        launch(device, {"hierarchy/quality.cl", "obb_measures"}, "node measures", count, forest.volumes, forest.boxes,
+               half.node_areas, volumes, fitted, unit, first, count);
+        const Buffer<std::uint32_t> sum = make_scratch<std::uint32_t>(device, 1, "fitted nodes");
+        reduce<std::uint32_t>(device, fitted, Operator::sum, sum);
+        half.fitted = download_element(device, sum, 0);
+    }
+    const Buffer<float> sums = make_scratch<float>(device, forest.topology.trees(), "sums over trees");
+    segmented_reduce<float>(device, half.node_areas, forest.topology.offsets, Operator::sum, sums);
+    half.areas = download(device, sums);
     segmented_reduce<float>(device, volumes, forest.topology.offsets, Operator::sum, sums);
-    result.volumes = download(device, sums);
+    half.volumes = download(device, sums);
+    return half;
+}
+
+std::vector<float> root_areas(Device& device, const Forest& forest, const Half& inner, const Half& leaves) {
+    const auto trees = static_cast<std::uint32_t>(forest.topology.trees());
+    const Buffer<float> roots = make_scratch<float>(device, trees, "areas of roots");
+    launch(device, {"hierarchy/quality.cl", "root_areas"}, "root areas", trees, inner.node_areas, leaves.node_areas,
+           forest.topology.offsets, roots, trees);
+    return download(device, roots);
+}
+
+std::vector<double> areas_by_primitive(Device& device, const Forest& forest, const Half& leaves, double unit_area) {
+    const std::vector<float> areas = download(device, leaves.node_areas);
+    const std::vector<std::uint32_t> order = download(device, forest.topology.order);
+    std::vector<double> result(areas.size());
+    for (std::size_t position = 0; position < areas.size(); ++position)
+        result[order[position]] = areas[position] * unit_area;
     return result;
 }
 
 } // namespace
 
-ForestQuality measure(Device& device, const Forest& forest) {
+float unit_of_lengths(Device& device, const Forest& forest) {
+    float largest = 0.0f;
+    for (const Aabb& box : download(device, forest.tree_bounds))
+        for (int k = 0; k < 3; ++k) largest = std::max(largest, box.max[k] - box.min[k]);
+    return largest > 0.0f ? std::ldexp(1.0f, std::max(std::ilogb(largest), -100)) : 1.0f;
+}
+
+ForestQuality measure(Device& device, const Forest& forest, bool leaf_areas) {
     const Stage stage(device, "quality");
-    const std::vector<Aabb> bounds = download(device, forest.tree_bounds);
-    const float unit = unit_of(bounds);
+    const float unit = unit_of_lengths(device, forest);
     const double unit_area = std::pow(static_cast<double>(unit), 2), unit_volume = unit_area * unit;
-    const HalfSums inner = sum_half(device, forest, 0, unit);
-    const HalfSums leaves = sum_half(device, forest, static_cast<std::uint32_t>(forest.topology.size()), unit);
+    const auto leaf_count = static_cast<std::uint32_t>(forest.topology.size());
+    const Half inner = measure_half(device, forest, 0, unit);
+    const Half leaves = measure_half(device, forest, leaf_count, unit);
+    const std::vector<float> roots = root_areas(device, forest, inner, leaves);
 
     ForestQuality quality;
-    for (std::size_t tree = 0; tree < bounds.size(); ++tree) {
-        const double inner_area = inner.areas[tree] * unit_area, leaf_area = leaves.areas[tree] * unit_area;
-        const double root = surface_area(bounds[tree]);
-        quality.sum_area += inner_area + leaf_area;
-        quality.sum_volume += (static_cast<double>(inner.volumes[tree]) + leaves.volumes[tree]) * unit_volume;
-        quality.root_area.push_back(root);
+    quality.nodes = std::uint64_t{2} * leaf_count - roots.size();
+    quality.sums.obb_smaller_fraction =
+        (static_cast<double>(inner.fitted) + leaves.fitted) / static_cast<double>(quality.nodes);
+    for (std::size_t tree = 0; tree < roots.size(); ++tree) {
+        const double inner_area = inner.areas[tree], area = inner_area + leaves.areas[tree], root = roots[tree];
+        quality.sums.sum_area += area * unit_area;
+        quality.sums.sum_volume += (static_cast<double>(inner.volumes[tree]) + leaves.volumes[tree]) * unit_volume;
+        quality.root_area.push_back(root * unit_area);
         // A tree whose box has no area is hit edge-on or not at all: every node of it counts as hit once.
         quality.inner_sah.push_back(root > 0.0 ? inner_area / root : 1.0);
-        quality.sah.push_back(root > 0.0 ? (inner_area + leaf_area) / root : 1.0);
+        quality.sah.push_back(root > 0.0 ? area / root : 1.0);
     }
+    if (leaf_areas) quality.leaf_area = areas_by_primitive(device, forest, leaves, unit_area);
     return quality;
 }
 
-double two_level_sah(const ForestQuality& bottom, const ForestQuality& top, const std::vector<Aabb>& instance_boxes,
+LevelQuality total(const ForestQuality& bottom, const ForestQuality& top) {
+    const auto b = static_cast<double>(bottom.nodes), t = static_cast<double>(top.nodes);
+    return {bottom.sums.sum_volume + top.sums.sum_volume, bottom.sums.sum_area + top.sums.sum_area,
+            (bottom.sums.obb_smaller_fraction * b + top.sums.obb_smaller_fraction * t) / (b + t)};
+}
+
+double two_level_sah(const ForestQuality& bottom, const ForestQuality& top,
                      const std::vector<InstanceRecord>& instances) {
     const double root = top.root_area[0];
     double cost = top.inner_sah[0];
     for (std::size_t i = 0; i < instances.size(); ++i)
-        cost += (root > 0.0 ? surface_area(instance_boxes[i]) / root : 1.0) * bottom.sah[instances[i].mesh];
+        cost += (root > 0.0 ? top.leaf_area[i] / root : 1.0) * bottom.sah[instances[i].mesh];
     return cost;
 }
 

@@ -3,25 +3,35 @@
 
 #include <vector>
 
+#include "boxwood/build.hpp"
 #include "hierarchy/forest.hpp"
 #include "shared/instance.h"
 
 namespace boxwood {
 
-/// Metrics of one forest, per tree and in all.
+/// Metrics of one forest by the boxes that its nodes have: oriented ones where `boxes` is not empty and the node does not
+/// keep its AABB.
 struct ForestQuality {
-    double sum_area = 0.0; ///< Surface area of all nodes' boxes.
-    double sum_volume = 0.0;
+    LevelQuality sums;
+    std::uint64_t nodes = 0;       ///< Nodes that `sums` is over.
     std::vector<double> root_area; ///< Per tree.
     std::vector<double> sah;       ///< Per tree: expected nodes and primitives tested by a ray that hits its root box.
     std::vector<double> inner_sah; ///< Per tree: the part of the inner nodes.
+    std::vector<double> leaf_area; ///< By primitive, where asked for.
 };
 
 /// Waits. Sums are pairwise and in a fixed order. O(n).
-ForestQuality measure(Device& device, const Forest& forest);
+ForestQuality measure(Device& device, const Forest& forest, bool leaf_areas = false);
+
+/// A power of two near the largest extent of any tree: lengths over it neither overflow when multiplied nor lose bits.
+float unit_of_lengths(Device& device, const Forest& forest);
+
+/// Sums over both levels.
+LevelQuality total(const ForestQuality& bottom, const ForestQuality& top);
 
 /// The SAH cost of two levels: top nodes, then each instance's bottom tree weighted by the chance to reach its box.
-double two_level_sah(const ForestQuality& bottom, const ForestQuality& top, const std::vector<Aabb>& instance_boxes,
+/// `top` has its leaf areas.
+double two_level_sah(const ForestQuality& bottom, const ForestQuality& top,
                      const std::vector<InstanceRecord>& instances);
 
 } // namespace boxwood
