@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // boxwood trace: rays through a tree, timed and counted.
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
 #include "boxwood/rays.hpp"
-#include "boxwood/trace.hpp"
 #include "cli/input.hpp"
 #include "cli/progress.hpp"
+#include "cli/rays.hpp"
 #include "cli/report.hpp"
 
 namespace boxwood::cli {
@@ -24,10 +22,7 @@ struct Arguments {
     Common common;
     std::filesystem::path input;
     std::filesystem::path report;
-    std::string rays = "primary";
-    std::string camera;
-    std::uint64_t seed = 1;
-    Resolution resolution;
+    RayChoice rays;
     BuildChoice choice;
 };
 
@@ -36,8 +31,7 @@ struct Result {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
     double median_ms = 0.0;
-    double volumes_per_ray = 0.0;
-    double primitives_per_ray = 0.0;
+    RayWork work;
     std::uint64_t checksum = 0; ///< Of all answers: equal results have equal checksums.
 };
 
@@ -49,48 +43,16 @@ std::uint64_t checksum(const std::vector<T>& values) {
     return hash;
 }
 
-/// Rays that a miss has replaced by nothing would flatter the rate.
-Buffer<Ray> without_null_rays(Device& device, const Buffer<Ray>& rays) {
-    std::vector<Ray> kept = download(device, rays);
-    std::erase_if(kept, [](const Ray& ray) {
-        return ray.direction[0] == 0.0f && ray.direction[1] == 0.0f && ray.direction[2] == 0.0f;
-    });
-    return upload(device, kept, "rays");
-}
-
-Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, const Arguments& arguments) {
-    const Stage stage(device, "rays");
-    const Resolution& size = arguments.resolution;
-    Buffer<Ray> primary = make_buffer<Ray>(device, std::size_t{size.width} * size.height, "rays");
-    primary_rays(device, choose_camera(input, arguments.camera), size.width, size.height, primary);
-    if (arguments.rays == "primary") return primary;
-
-    const Geometry geometry = upload(device, input.scene);
-    const Buffer<Hit> hits = make_buffer<Hit>(device, primary.size(), "hits");
-    const Buffer<Ray> secondary = make_buffer<Ray>(device, primary.size(), "secondary rays");
-    closest_hit(device, tree, primary, hits);
-    if (arguments.rays == "diffuse")
-        diffuse_rays(device, geometry, primary, hits, arguments.seed, secondary);
-    else
-        shadow_rays(device, geometry, primary, hits, default_light(input.scene), secondary);
-    return without_null_rays(device, secondary);
-}
-
 /// Median wall clock of a launch; the first, which compiles, is not counted.
 template <class Launch>
 double median_ms(Device& device, Progress& progress, const Launch& launch_rays) {
-    std::array<double, timed_runs> times;
     launch_rays();
-    device.finish();
-    for (double& time : times) {
+    std::vector<double> times;
+    for (std::size_t run = 0; run < timed_runs; ++run) {
         progress.step("tracing");
-        const auto start = std::chrono::steady_clock::now();
-        launch_rays();
-        device.finish();
-        time = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        times.push_back(timed_ms(device, launch_rays));
     }
-    std::nth_element(times.begin(), times.begin() + timed_runs / 2, times.end());
-    return times[timed_runs / 2];
+    return median(times);
 }
 
 Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, Progress& progress) {
@@ -114,43 +76,23 @@ Result trace_any(Device& device, const Tree& tree, const Buffer<Ray>& rays, Prog
     return result;
 }
 
-/// Statistics come from a program of their own, so that counting costs the timed one nothing.
-void count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays, Result& result) {
-    result.rays = rays.size();
-    if (result.rays == 0) return;
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "ray statistics");
-    closest_hit(device, tree, rays, hits, statistics);
-    std::uint64_t volumes = 0, primitives = 0;
-    for (const RayStatistics& each : download(device, statistics)) {
-        volumes += each.volumes;
-        primitives += each.primitives;
-    }
-    result.volumes_per_ray = static_cast<double>(volumes) / static_cast<double>(result.rays);
-    result.primitives_per_ray = static_cast<double>(primitives) / static_cast<double>(result.rays);
-}
-
-double mrays_per_s(const Result& result) {
-    return result.median_ms > 0.0 ? static_cast<double>(result.rays) / result.median_ms * 1e-3 : 0.0;
-}
-
 void add_to_report(const Arguments& arguments, const Input& input, const Result& result, Json& report) {
     std::ostringstream hash;
     hash << std::hex << std::setw(16) << std::setfill('0') << result.checksum;
     Json& options = report["options"];
-    options["rays"] = arguments.rays;
-    options["resolution"] = {arguments.resolution.width, arguments.resolution.height};
-    options["camera"] = choose_camera(input, arguments.camera).name;
-    if (arguments.rays == "diffuse") options["seed"] = arguments.seed;
-    if (arguments.rays == "shadow") {
+    options["rays"] = arguments.rays.kind;
+    options["resolution"] = {arguments.rays.resolution.width, arguments.rays.resolution.height};
+    options["camera"] = choose_camera(input, arguments.rays.camera).name;
+    if (arguments.rays.kind == "diffuse") options["seed"] = arguments.rays.seed;
+    if (arguments.rays.kind == "shadow") {
         const glm::vec3 light = default_light(input.scene);
         options["light"] = {light.x, light.y, light.z};
     }
     report["trace"] = {{"rays", result.rays},
                        {"hits", result.hits},
-                       {"mrays_per_s", mrays_per_s(result)},
-                       {"nodes_per_ray", result.volumes_per_ray},
-                       {"primitives_per_ray", result.primitives_per_ray},
+                       {"mrays_per_s", mrays_per_s(result.rays, result.median_ms)},
+                       {"nodes_per_ray", result.work.volumes_per_ray},
+                       {"primitives_per_ray", result.work.primitives_per_ray},
                        {"statistics_of", "closest_hit"},
                        {"timed_runs", timed_runs},
                        {"median_ms", result.median_ms},
@@ -158,10 +100,10 @@ void add_to_report(const Arguments& arguments, const Input& input, const Result&
 }
 
 void print_summary(const Arguments& arguments, const Result& result) {
-    std::cout << grouped(result.rays) << ' ' << arguments.rays << " rays, " << grouped(result.hits) << " hits, "
-              << std::fixed << std::setprecision(2) << mrays_per_s(result) << " Mray/s (median of " << timed_runs
-              << "), " << result.volumes_per_ray << " volumes and " << result.primitives_per_ray
-              << " triangles tested per ray\n";
+    std::cout << grouped(result.rays) << ' ' << arguments.rays.kind << " rays, " << grouped(result.hits) << " hits, "
+              << std::fixed << std::setprecision(2) << mrays_per_s(result.rays, result.median_ms)
+              << " Mray/s (median of " << timed_runs << "), " << result.work.volumes_per_ray << " volumes and "
+              << result.work.primitives_per_ray << " triangles tested per ray\n";
 }
 
 void run(const Arguments& arguments) {
@@ -170,22 +112,23 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 4 + timed_runs);
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
-    choose_camera(input, arguments.camera); // an unknown name is found before the work
+    choose_camera(input, arguments.rays.camera); // an unknown name is found before the work
     progress.step("building");
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice);
     progress.step("making rays");
-    const Buffer<Ray> rays = make_rays(device, input, prepared.tree, arguments);
+    const Buffer<Ray> rays = make_rays(device, input, prepared.tree, arguments.rays);
     Result result;
     {
         const Stage stage(device, "trace");
-        result = arguments.rays == "shadow" ? trace_any(device, prepared.tree, rays, progress)
-                                            : trace_closest(device, prepared.tree, rays, progress);
+        result = arguments.rays.kind == "shadow" ? trace_any(device, prepared.tree, rays, progress)
+                                                 : trace_closest(device, prepared.tree, rays, progress);
     }
     progress.step("counting");
     {
         const Stage stage(device, "statistics");
-        count_work(device, prepared.tree, rays, result);
+        result.rays = rays.size();
+        result.work = count_work(device, prepared.tree, rays);
     }
     Json report = base_report(device, input, prepared, {"statistics"});
     add_to_report(arguments, input, result, report);
@@ -201,15 +144,11 @@ Command add_trace(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("trace", "Trace rays through a tree and measure it");
     const auto arguments = std::make_shared<Arguments>();
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
-    app->add_option("--rays", arguments->rays,
+    app->add_option("--rays", arguments->rays.kind,
                     "primary: closest hits of camera rays (default); diffuse: closest hits of rays that leave those "
                     "hits; shadow: any hit between those hits and a light in the scene's bounding box")
         ->check(CLI::IsMember({"primary", "diffuse", "shadow"}));
-    app->add_option("--camera", arguments->camera,
-                    "Name or index of the camera (default: the first, else a view of "
-                    "everything)");
-    add_resolution(*app, arguments->resolution);
-    app->add_option("--seed", arguments->seed, "Seed of diffuse rays (default: 1)")->check(CLI::NonNegativeNumber);
+    add_ray_options(*app, arguments->rays);
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");
     add_common(*app, arguments->common);

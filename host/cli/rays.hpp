@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Rays of a scene for the commands that trace them, and how they are timed and counted.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "boxwood/trace.hpp"
+#include "cli/input.hpp"
+
+namespace boxwood::cli {
+
+/// Which rays to trace.
+struct RayChoice {
+    std::string kind = "primary"; ///< primary, diffuse or shadow.
+    std::string camera;
+    std::uint64_t seed = 1;
+    Resolution resolution;
+};
+
+/// --camera, --resolution and --seed.
+void add_ray_options(CLI::App& command, RayChoice& choice);
+
+/// Camera rays, or those that leave their hits; rays that a miss would leave empty are left out, as they would flatter the
+/// rate. They do not depend on the tree, as hits do not.
+Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, const RayChoice& choice);
+
+/// What rays cost on average.
+struct RayWork {
+    double volumes_per_ray = 0.0;
+    double primitives_per_ray = 0.0;
+};
+
+/// By a program of its own, so that counting costs a timed one nothing. Zeros for no rays.
+RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays);
+
+/// The middle value, the higher of two; 0 for none.
+double median(std::vector<double> values);
+
+/// 0 for no time.
+double mrays_per_s(std::size_t rays, double ms);
+
+/// Wall clock of what `work` enqueues, in milliseconds, with nothing else enqueued.
+template <class Work>
+double timed_ms(Device& device, const Work& work) {
+    device.finish();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    device.finish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace boxwood::cli
