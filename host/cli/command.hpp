@@ -35,6 +35,7 @@ Command add_build(CLI::App& tool);
 Command add_info(CLI::App& tool);
 Command add_trace(CLI::App& tool);
 Command add_render(CLI::App& tool);
+Command add_quality(CLI::App& tool);
 
 /// No device can be used: exit code 4, where another DeviceError is a failure of the work.
 class NoDevice : public Error {
@@ -66,6 +67,15 @@ struct BuildChoice {
     void check() const;
 };
 void add_build_options(CLI::App& command, BuildChoice& choice);
+
+/// Single build options, for commands that do not take all.
+CLI::Option* add_levels(CLI::App& command, BuildOptions& options);
+CLI::Option* add_extents(CLI::App& command, BuildOptions& options);
+CLI::Option* add_measure(CLI::App& command, BuildOptions& options);
+CLI::Option* add_morton(CLI::App& command, BuildOptions& options);
+
+/// The kinds of volumes.
+std::vector<std::string> bounds_words();
 
 /// Size of a picture or of a grid of camera rays.
 struct Resolution {

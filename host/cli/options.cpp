@@ -18,13 +18,13 @@ std::uint32_t to_number(std::string_view text) {
     return status == std::errc() && rest == text.data() + text.size() ? value : 0;
 }
 
+} // namespace
+
 std::vector<std::string> bounds_words() {
     std::vector<std::string> words;
     for (const Bounds kind : all_bounds()) words.emplace_back(name(kind));
     return words;
 }
-
-} // namespace
 
 Device open_device(const Common& common) {
     try {
@@ -54,14 +54,42 @@ void BuildChoice::check() const {
             std::string(name(options.bounds.kind)));
 }
 
+CLI::Option* add_levels(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<std::string>(
+            "--levels", [&](const std::string& word) { options.levels = to_levels(word); },
+            "One tree over everything, a tree per mesh under a tree over instances, or by need (default)")
+        ->check(CLI::IsMember({"one", "two", "auto"}));
+}
+
+CLI::Option* add_extents(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<std::string>(
+            "--extents", [&](const std::string& word) { options.bounds.extents = to_extents(word); },
+            "Extents of obb-moments from all vertices (exact, default) or from the children's corners")
+        ->check(CLI::IsMember({"exact", "corners"}));
+}
+
+CLI::Option* add_measure(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<std::string>(
+            "--measure", [&](const std::string& word) { options.bounds.measure = to_measure(word); },
+            "A node keeps its axis-aligned box unless the oriented one has less volume (default) or area")
+        ->check(CLI::IsMember({"volume", "area"}));
+}
+
+CLI::Option* add_morton(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<int>(
+            "--morton", [&](int bits) { options.morton = bits == 63 ? MortonBits::bits63 : MortonBits::bits30; },
+            "Bits of the Morton codes (default: 30)")
+        ->check(CLI::IsMember({30, 63}));
+}
+
 void add_build_options(CLI::App& command, BuildChoice& choice) {
     BuildOptions& options = choice.options;
     choice.declared = {
-        command
-            .add_option_function<std::string>(
-                "--levels", [&](const std::string& word) { options.levels = to_levels(word); },
-                "One tree over everything, a tree per mesh under a tree over instances, or by need (default)")
-            ->check(CLI::IsMember({"one", "two", "auto"})),
+        add_levels(command, options),
         command
             .add_option_function<std::string>(
                 "--layout", [&](const std::string& word) { options.layout = to_layout(word); },
@@ -72,21 +100,9 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
                 "--bounds", [&](const std::string& word) { options.bounds.kind = to_bounds(word); },
                 "Volumes of the nodes: axis-aligned boxes (default), or a kind of oriented boxes")
             ->check(CLI::IsMember(bounds_words())),
-        command
-            .add_option_function<std::string>(
-                "--extents", [&](const std::string& word) { options.bounds.extents = to_extents(word); },
-                "Extents of obb-moments from all vertices (exact, default) or from the children's corners")
-            ->check(CLI::IsMember({"exact", "corners"})),
-        command
-            .add_option_function<std::string>(
-                "--measure", [&](const std::string& word) { options.bounds.measure = to_measure(word); },
-                "A node keeps its axis-aligned box unless the oriented one has less volume (default) or area")
-            ->check(CLI::IsMember({"volume", "area"})),
-        command
-            .add_option_function<int>(
-                "--morton", [&](int bits) { options.morton = bits == 63 ? MortonBits::bits63 : MortonBits::bits30; },
-                "Bits of the Morton codes (default: 30)")
-            ->check(CLI::IsMember({30, 63})),
+        add_extents(command, options),
+        add_measure(command, options),
+        add_morton(command, options),
     };
 }
 

@@ -27,12 +27,6 @@ Json passes_report(const Prepared& prepared) {
     return passes;
 }
 
-Json level_report(const LevelQuality& level) {
-    return {{"sum_volume", level.sum_volume},
-            {"sum_area", level.sum_area},
-            {"obb_smaller_fraction", level.obb_smaller_fraction}};
-}
-
 Json quality_report(const Input& input, const Prepared& prepared) {
     if (prepared.report) {
         const BuildReport& report = *prepared.report;
@@ -57,6 +51,12 @@ std::size_t bottom_nodes(const TreeImage& tree) {
 
 std::size_t top_nodes(const TreeImage& tree) {
     return tree.binary_top.size() + tree.oriented_top.size() + tree.wide_top.size();
+}
+
+Json level_report(const LevelQuality& level) {
+    return {{"sum_volume", level.sum_volume},
+            {"sum_area", level.sum_area},
+            {"obb_smaller_fraction", level.obb_smaller_fraction}};
 }
 
 Json scene_report(const Input& input) {

@@ -22,6 +22,9 @@ Json base_report(const Device& device, const Input& input, const Prepared& prepa
 /// Counts of a scene: "file", "meshes", "instances", "triangles", "vertices", "dropped_triangles", ...
 Json scene_report(const Input& input);
 
+/// "sum_volume", "sum_area", "obb_smaller_fraction".
+Json level_report(const LevelQuality& level);
+
 /// Nodes of the layout.
 std::size_t bottom_nodes(const TreeImage& tree);
 std::size_t top_nodes(const TreeImage& tree);

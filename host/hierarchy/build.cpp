@@ -11,6 +11,7 @@
 #include "boxwood/volumes.hpp"
 #include "hierarchy/capacity.hpp"
 #include "hierarchy/forest.hpp"
+#include "hierarchy/overlap.hpp"
 #include "hierarchy/quality.hpp"
 #include "runtime/launch.hpp"
 
@@ -156,7 +157,7 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     return tree;
 }
 
-void fill_quality(Device& device, const Tree& tree, const Parts& parts, BuildReport& report) {
+void fill_quality(Device& device, const Tree& tree, const Parts& parts, bool overlap, BuildReport& report) {
     const ForestQuality bottom = measure(device, parts.bottom);
     report.bottom = report.all = bottom.sums;
     report.sah = bottom.sah[0];
@@ -166,6 +167,8 @@ void fill_quality(Device& device, const Tree& tree, const Parts& parts, BuildRep
         report.all = total(bottom, top);
         report.sah = two_level_sah(bottom, top, parts.instances);
     }
+    if (overlap && tree.layout == Layout::binary)
+        report.overlap = end_point_overlap(device, parts.bottom, tree.triangles);
     report.max_depth = tree.bottom_depth + tree.top_depth;
     report.nodes = tree.wide_nodes.size() + tree.wide_top.size() + tree.binary_nodes.size() + tree.binary_top.size() +
                    tree.oriented_nodes.size() + tree.oriented_top.size();
@@ -204,7 +207,7 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
         report->upload_ms = Milliseconds(parts.uploaded - start).count();
         report->profile = device.take_profile();
         report->peak_device_bytes = device.peak_bytes();
-        fill_quality(device, tree, parts, *report);
+        fill_quality(device, tree, parts, options.measure_overlap, *report);
     }
     return tree;
 }

@@ -17,6 +17,8 @@ struct BuildOptions {
     Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
     MortonBits morton = MortonBits::bits30;
     BoundsOptions bounds = {}; ///< Oriented boxes need the binary layout.
+    bool measure_overlap =
+        false; ///< Fill BuildReport::overlap, which may take longer than the build; binary layout only.
 };
 
 /// Sums over the boxes of all binary nodes of one level, leaves included.
@@ -33,10 +35,11 @@ struct BuildReport {
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
     std::uint64_t peak_device_bytes = 0;
-    double sah = 0.0;            ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
-    LevelQuality all;            ///< Both levels.
-    LevelQuality bottom;         ///< In object space, each mesh once.
-    LevelQuality top;            ///< In world space; zeros for one level.
+    double sah = 0.0;     ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
+    double overlap = 0.0; ///< End-point overlap of the bottom level, if asked for (Aila et al. 2013, every node at 1).
+    LevelQuality all;     ///< Both levels.
+    LevelQuality bottom;  ///< In object space, each mesh once.
+    LevelQuality top;     ///< In world space; zeros for one level.
     std::uint32_t max_depth = 0; ///< Of the layout, bottom plus top level.
     std::uint64_t nodes = 0;     ///< Of the layout, both levels.
 };
