@@ -12,11 +12,14 @@
 
 namespace boxwood {
 
-/// M = T R S: the affine map of the cube [-0.5, 0.5]^3 onto the box (dissertation 3.1.1). Singular for a flat box.
+/// M = T R S: the affine map of the cube [-0.5, 0.5]^3 onto the box (dissertation 3.1.1). A flat box has columns of zero.
+/// Throws InputError for the empty box.
 glm::dmat4 to_matrix(const Obb& box);
 
-/// The box that `matrix` (affine, invertible in its linear part) maps the cube [-0.5, 0.5]^3 to, rounded outward.
-/// Throws InputError for a singular or non-finite one. to_obb(m * to_matrix(box)) updates a box (dissertation 3.1.4).
+/// The box that the affine `matrix` maps the cube [-0.5, 0.5]^3 to, rounded outward; its axes are the normals of its
+/// faces. Columns of zero, a flat box's, are allowed; the other columns of the linear part must be independent. Throws
+/// InputError when they are not, or for values that are not finite or leave the range of float. to_obb(m * to_matrix(box))
+/// updates a box (dissertation 3.1.4), a flat one too.
 Obb to_obb(const glm::dmat4& matrix);
 
 /// |det M|, and the area of the six faces; 0 for the empty box.
