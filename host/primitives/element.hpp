@@ -47,6 +47,11 @@ struct Element<cl_float4> {
     static constexpr int components = 4;
 };
 template <>
+struct Element<cl_ulong4> {
+    static constexpr const char* scalar = "ulong";
+    static constexpr int components = 4;
+};
+template <>
 struct Element<Aabb> {
     static constexpr const char* scalar = "float";
     static constexpr int components = 6;

@@ -56,6 +56,8 @@ template void segmented_reduce(Device&, BufferView<const float>, BufferView<cons
                                BufferView<float>);
 template void segmented_reduce(Device&, BufferView<const cl_float4>, BufferView<const std::uint32_t>, Operator,
                                BufferView<cl_float4>);
+template void segmented_reduce(Device&, BufferView<const cl_ulong4>, BufferView<const std::uint32_t>, Operator,
+                               BufferView<cl_ulong4>);
 template void segmented_reduce(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, Operator,
                                BufferView<Aabb>);
 

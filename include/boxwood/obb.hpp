@@ -30,16 +30,19 @@ double surface_area(const Obb& box);
 bool contains(const Obb& box, const glm::dvec3& point);
 
 /// The oriented box of each segment of points by principal component analysis (dissertation 3.1.3; Gottschalk 2000):
-/// `positions` holds three floats per point, segment s the points [offsets[s], offsets[s + 1]). Covariances are
-/// shifted and merged pairwise, so no digits are lost far from the origin. Extents are exact, padded by a bound on their
-/// rounding, so every point lies in its box. An empty segment gives the empty box. `boxes` has offsets.size() - 1
-/// elements. O(points + segments), balanced over points.
+/// `positions` holds three finite floats per point, segment s the points [offsets[s], offsets[s + 1]). Second moments are
+/// summed about the mean of the segment, in units of its size, so no digits are lost far from the origin. Where two
+/// eigenvalues are within 1/8 of each other, as those of a cube, a sphere or a square, a small box of the points that
+/// reach farthest in 26 directions is tried too (in the way of DiTO, Larsson and Kallberg 2011), and taken when its area is
+/// smaller. Extents are exact, padded by a bound on their rounding, so every point lies in its box. An empty segment gives
+/// the empty box. `boxes` has offsets.size() - 1 elements. O(points + segments), balanced over points; about 150 bytes
+/// of scratch per point; waits for the device once. Throws InputError for sizes that do not agree.
 void fit_obbs(Device& device, BufferView<const float> positions, BufferView<const std::uint32_t> offsets,
               BufferView<Obb> boxes);
 
-/// The oriented box of each mesh of `geometry`, its covariance weighted by area, continuous over the triangles, so that it
-/// does not depend on how the surface is cut into them. A mesh without area takes its vertices. `boxes` has one element
-/// per mesh.
+/// The oriented box of the triangles of each mesh of `geometry`, its second moments weighted by area and continuous over the
+/// triangles, so that it hardly depends on how the surface is cut into them; else as fit_obbs. In a mesh without area all
+/// triangles weigh the same, as the line segments or points that they are. `boxes` has one element per mesh.
 void fit_mesh_obbs(Device& device, const Geometry& geometry, BufferView<Obb> boxes);
 
 } // namespace boxwood
