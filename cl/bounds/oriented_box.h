@@ -141,7 +141,7 @@ INLINE real half_width(const Vector* axis, real low, real high, const Vector* re
     const real middle = dot3(axis, center);
     const real size = reach3(axis, reach) + reach3(axis, center);
     const real error = fma(8.0f * ROUNDOFF, size, reach3(axis, inexact));
-    return larger(high - middle, middle - low) + error;
+    return fma(larger(high - middle, middle - low), (real)(1.0f + 2.0f * ROUNDOFF), error);
 }
 
 INLINE real measure_of(const Vector* extent) {

@@ -61,6 +61,15 @@ INLINE void choose3(mask condition, const Vector* yes, Vector* v) {
     v->z = CHOOSE(condition, yes->z, v->z);
 }
 
+INLINE void choose6(mask condition, const Symmetric* yes, Symmetric* m) {
+    m->xx = CHOOSE(condition, yes->xx, m->xx);
+    m->yy = CHOOSE(condition, yes->yy, m->yy);
+    m->zz = CHOOSE(condition, yes->zz, m->zz);
+    m->xy = CHOOSE(condition, yes->xy, m->xy);
+    m->xz = CHOOSE(condition, yes->xz, m->xz);
+    m->yz = CHOOSE(condition, yes->yz, m->yz);
+}
+
 INLINE void identity_frame(Frame* frame) {
     const real one = 1.0f, zero = 0.0f;
     const Vector x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};

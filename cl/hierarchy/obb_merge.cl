@@ -2,14 +2,20 @@
 // Oriented boxes, second part: the nodes of one level of the tree, each from its two children (dissertation 3.5). Levels
 // are by height: all nodes whose children are done, LANES at a time.
 //
-// MERGE    0: moments of all points below; 1: PCA over the 16 corners of the children's boxes ("bounded")
+// MERGE    0: moments of all points below; 1: PCA over the 16 corners of the children's boxes ("bounded"); 2: half-way
+//          rotation of the children's boxes; 3: the cascade: points where both children are leaves, corners and points where
+//          one is, else as 2
 // EXTENTS  1: the box is made here, from the children's boxes; 0: only its axes, the extents come from obb_ranges.cl
 // POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h
 // compile: MERGE=0 EXTENTS=0 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=0 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=1 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=1 FALLBACK=0
+// compile: MERGE=2 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
+// compile: MERGE=3 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
+// compile: MERGE=3 EXTENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=1 EXTENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
 #include "bounds/eigen.h"
+#include "bounds/rotation.h"
 #include "runtime/prefetch.h"
 #include "hierarchy/obb_node.h"
 
@@ -42,12 +48,87 @@ INLINE void merge_children(global const Aabb* aabbs, const Space* space, const u
 
 #endif
 
+#if MERGE == 1
+
+/// Axes of the 16 corners of two boxes.
+INLINE void axes_of_corners(const OrientedBox* a, const OrientedBox* b, Frame* axes) {
+    Moments merged, other;
+    box_moments(a, &merged);
+    box_moments(b, &other);
+    merge_moments((real)(0.5f), &other, &merged);
+    eigenvectors(&merged.covariance, axes);
+}
+
+#endif
+#if MERGE == 3
+
+/// A child of the cascade: a box, or in the lanes of `leaf` the points of a primitive.
+typedef struct Child {
+    OrientedBox box;
+    Vector points[POINTS_PER_PRIMITIVE];
+    mask leaf;
+} Child;
+
+INLINE void load_child(const Nodes* nodes, global const Obb* boxes, const uint* index, const Space* space,
+                       Child* child) {
+    uint position[LANES];
+    int is_leaf[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        is_leaf[lane] = index[lane] >= nodes->count ? 1 : 0;
+        position[lane] = is_leaf[lane] ? index[lane] - nodes->count : 0;
+    }
+    child->leaf = LOAD_LANES(is_leaf) != 0;
+    load_boxes(boxes, index, space, &child->box);
+    load_primitives_at(nodes, position, space, child->points);
+}
+
+INLINE void child_moments(const Child* child, Moments* moments, real* weight) {
+    Moments of_points;
+    box_moments(&child->box, moments);
+    primitive_moments(child->points, &of_points);
+    choose3(child->leaf, &of_points.mean, &moments->mean);
+    choose6(child->leaf, &of_points.covariance, &moments->covariance);
+    *weight = CHOOSE(child->leaf, (real)(POINTS_PER_PRIMITIVE), (real)(8.0f));
+}
+
+INLINE void add_child(const Frame* axes, const Child* child, Slabs* slabs) {
+    Slabs of_box, of_points;
+    empty_slabs(&of_box);
+    empty_slabs(&of_points);
+    add_box(axes, &child->box, &of_box);
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) add_point(axes, &child->points[k], &of_points);
+    choose3(child->leaf, &of_points.low, &of_box.low);
+    choose3(child->leaf, &of_points.high, &of_box.high);
+    widen(of_box.low.x, of_box.high.x, &slabs->low.x, &slabs->high.x);
+    widen(of_box.low.y, of_box.high.y, &slabs->low.y, &slabs->high.y);
+    widen(of_box.low.z, of_box.high.z, &slabs->low.z, &slabs->high.z);
+}
+
+INLINE void cascade_axes(const Child* a, const Child* b, Frame* axes) {
+    Moments merged, other;
+    real weight, other_weight;
+    child_moments(a, &merged, &weight);
+    child_moments(b, &other, &other_weight);
+    merge_moments(other_weight / (weight + other_weight), &other, &merged);
+    Frame blended;
+    blend_frames(&a->box.axes, &b->box.axes, &blended);
+    eigenvectors(&merged.covariance, axes);
+    const mask above = (a->leaf | b->leaf) == 0;
+    choose3(above, &blended.a, &axes->a);
+    choose3(above, &blended.b, &axes->b);
+    choose3(above, &blended.c, &axes->c);
+    orthonormalise(axes);
+}
+
+#endif
+
 /// The nodes level[first .. first + level_count - 1].
 /// Before: boxes (and moments) of all nodes of lower levels are done. After: those of these nodes.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void merge_level(global const uint* level, uint level_first, uint level_count, uint slice,
                  global const uint2* children, global const uint* far_ends, global const Aabb* aabbs,
-                 global float* moments, global Obb* boxes, uint count) {
+                 global const float* points, uint stride, global const float* errors, global float* moments,
+                 global Obb* boxes, uint count) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= level_count) return;
     const uint end = min(begin + slice, level_count);
@@ -62,36 +143,46 @@ void merge_level(global const uint* level, uint level_first, uint level_count, u
         const uint used = min((uint)LANES, end - i);
         for (uint next = i + LANES; next < min(i + 2 * LANES, end); ++next) {
             const uint2 below = children[level[level_first + next]];
-            prefetch_256((global const char*)&boxes[below.x]);
-            prefetch_256((global const char*)&boxes[below.y]);
+            prefetch_line((global const char*)&boxes[below.x]);
+            prefetch_line((global const char*)&boxes[below.y]);
         }
         Space space;
         space_of(aabbs, index, &space);
-        Moments merged;
+        Frame axes;
 #if MERGE == 0
+        Moments merged;
         merge_children(aabbs, &space, first, second, second_share(first, second, far_ends, count), moments, &merged);
         store_moments(&merged, moments, index, used);
-#endif
-#if MERGE != 0 || EXTENTS
-        OrientedBox a, b;
-        load_boxes(boxes, first, &space, &a);
-        load_boxes(boxes, second, &space, &b);
-#endif
-#if MERGE == 1
-        Moments other;
-        box_moments(&a, &merged);
-        box_moments(&b, &other);
-        merge_moments((real)(0.5f), &other, &merged);
-#endif
-        Frame axes;
         eigenvectors(&merged.covariance, &axes);
+#endif
 #if EXTENTS
         Slabs slabs;
         empty_slabs(&slabs);
+#if MERGE == 3
+        const Nodes nodes = {aabbs, points, stride, errors, count};
+        Child a, b;
+        load_child(&nodes, boxes, first, &space, &a);
+        load_child(&nodes, boxes, second, &space, &b);
+        cascade_axes(&a, &b, &axes);
+        add_child(&axes, &a, &slabs);
+        add_child(&axes, &b, &slabs);
+        Vector inexact;
+        inexact_of(&nodes, index, &space, &inexact);
+#else
+        OrientedBox a, b;
+        load_boxes(boxes, first, &space, &a);
+        load_boxes(boxes, second, &space, &b);
+#if MERGE == 1
+        axes_of_corners(&a, &b, &axes);
+#elif MERGE == 2
+        blend_frames(&a.axes, &b.axes, &axes);
+        orthonormalise(&axes);
+#endif
         add_box(&axes, &a, &slabs);
         add_box(&axes, &b, &slabs);
-        const Vector exact = {0.0f, 0.0f, 0.0f};
-        finish_boxes(&space, &axes, &slabs, &exact, boxes, index, used);
+        const Vector inexact = {0.0f, 0.0f, 0.0f}; // the boxes below hold what theirs was
+#endif
+        finish_boxes(&space, &axes, &slabs, &inexact, boxes, index, used);
 #else
         store_frame(&axes, boxes, index, used);
 #endif

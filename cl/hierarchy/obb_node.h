@@ -66,6 +66,24 @@ INLINE void load_primitives(const Nodes* nodes, uint first, const Space* space, 
     }
 }
 
+/// The points of the primitives at any LANES sorted positions. Reads behind them as above.
+INLINE void load_primitives_at(const Nodes* nodes, const uint* positions, const Space* space, Vector* points) {
+    real x[8], y[8], z[8];
+#if POINTS_PER_PRIMITIVE == 8
+    load_rows8(nodes->points, 8, positions, x);
+    load_rows8(nodes->points + nodes->stride, 8, positions, y);
+    load_rows8(nodes->points + 2 * (size_t)nodes->stride, 8, positions, z);
+#else
+    load_rows4(nodes->points, 3, positions, x);
+    load_rows4(nodes->points + nodes->stride, 3, positions, y);
+    load_rows4(nodes->points + 2 * (size_t)nodes->stride, 3, positions, z);
+#endif
+    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) {
+        const Vector p = {x[k], y[k], z[k]};
+        to_space(space, &p, &points[k]);
+    }
+}
+
 /// Moments of the points of one primitive.
 INLINE void primitive_moments(const Vector* points, Moments* moments) {
     const Vector none = {0.0f, 0.0f, 0.0f};

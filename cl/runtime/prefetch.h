@@ -11,6 +11,9 @@
 #define PREFETCH_LINE(place) prefetch(place, 64)
 #endif
 
+/// The cache line of 64 bytes that holds `place`.
+INLINE void prefetch_line(global const char* place) { PREFETCH_LINE(place); }
+
 /// The four cache lines of 64 bytes from `place` on.
 INLINE void prefetch_256(global const char* place) {
     PREFETCH_LINE(place);

@@ -44,28 +44,34 @@ void fit_triangles(Fit& fit, const Geometry& geometry) {
            slices.length);
     launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "triangle_leaves"), "leaf boxes", slices.slices,
            fit.aabbs, fit.points, fit.stride, fit.boxes, fit.count, slices.length);
-    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots",
-           fit.topology.trees(), fit.topology.offsets, fit.boxes, static_cast<std::uint32_t>(fit.topology.trees()));
+    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots", fit.topology.trees(),
+           fit.topology.offsets, fit.boxes, static_cast<std::uint32_t>(fit.topology.trees()));
 }
 
-/// One launch per level, from the leaves' parents up; `extents`: boxes from the children's, else axes alone.
-void merge_levels(Fit& fit, const char* merge, bool extents) {
+/// Calls run(first, size) for each level, from the leaves' parents up.
+template <class Run>
+void each_level(const NodeLevels& levels, const Run& run) {
+    for (std::uint32_t height = 1; height <= levels.height(); ++height)
+        run(levels.starts[height], levels.starts[height + 1] - levels.starts[height]);
+}
+
+/// One launch per level; `extents`: boxes from the children's, else axes alone.
+void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool extents) {
     Buffer<float> moments;
-    if (fit.options.kind == Bounds::obb_moments) {
+    if (merge[0] == '0') {
         moments = make_scratch<float>(fit.device, 24 * std::size_t{fit.count}, "moments of nodes");
         const Slices slices = cut(fit.device, fit.count);
         launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "leaf_moments"), "leaf moments", slices.slices,
                fit.aabbs, fit.points, fit.stride, moments, fit.count, slices.length);
     }
-    const NodeLevels levels = node_levels(fit.device, fit.topology);
-    const KernelRef kernel = kernel_of(fit, "hierarchy/obb_merge.cl", "merge_level",
-                                       {{"MERGE", merge}, {"EXTENTS", extents ? "1" : "0"}});
-    for (std::uint32_t height = 1; height <= levels.height(); ++height) {
-        const std::uint32_t first = levels.starts[height], size = levels.starts[height + 1] - first;
+    const KernelRef kernel =
+        kernel_of(fit, "hierarchy/obb_merge.cl", "merge_level", {{"MERGE", merge}, {"EXTENTS", extents ? "1" : "0"}});
+    each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
         const Slices slices = cut(fit.device, size, 8);
         launch(fit.device, kernel, "merged nodes", slices.slices, levels.nodes, first, size, slices.length,
-               fit.topology.children, fit.topology.far_ends, fit.aabbs, moments, fit.boxes, fit.count);
-    }
+               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, fit.errors, moments,
+               fit.boxes, fit.count);
+    });
 }
 
 /// A pass over the points below every node: 0 for axes by covariance, 1 for boxes along the axes.
@@ -92,17 +98,23 @@ void pass_over_ranges(Fit& fit, const char* pass, const char* label) {
            fit.topology.far_ends, fit.aabbs, fit.errors, parts, fit.boxes, fit.count, slices.length);
 }
 
-void fit_inner_nodes(Fit& fit) {
+void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
     switch (fit.options.kind) {
     case Bounds::obb_points:
         pass_over_ranges(fit, "0", "covariances");
         pass_over_ranges(fit, "1", "extents");
         break;
     case Bounds::obb_boxes:
-        merge_levels(fit, "1", true);
+        merge_levels(fit, levels, "1", true);
+        break;
+    case Bounds::obb_quaternion:
+        merge_levels(fit, levels, "2", true);
+        break;
+    case Bounds::obb_cascade:
+        merge_levels(fit, levels, "3", true);
         break;
     case Bounds::obb_moments:
-        merge_levels(fit, "0", fit.options.extents == Extents::corners);
+        merge_levels(fit, levels, "0", fit.options.extents == Extents::corners);
         if (fit.options.extents == Extents::exact) pass_over_ranges(fit, "1", "extents");
         break;
     default:
@@ -132,7 +144,7 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
                         const Geometry& geometry, const BoundsOptions& options) {
     Fit fit = make_fit(device, topology, aabbs, options, 3);
     fit_triangles(fit, geometry);
-    fit_inner_nodes(fit);
+    fit_inner_nodes(fit, options.kind == Bounds::obb_points ? NodeLevels{} : node_levels(device, topology));
     return std::move(fit.boxes);
 }
 
@@ -140,8 +152,24 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
                         BufferView<const InstanceRecord> instances, BufferView<const Obb> mesh_boxes,
                         const BoundsOptions& options) {
     Fit fit = make_fit(device, topology, aabbs, options, 8);
-    (void)instances;
-    (void)mesh_boxes;
+    fit.errors = make_scratch<float>(device, 8 * std::size_t{fit.count}, "errors of corners");
+    const auto kernel = [&](const char* kernel_name) {
+        KernelRef reference = kernel_of(fit, "hierarchy/obb_instances.cl", kernel_name);
+        reference.defines["LANES"] = "1";
+        return reference;
+    };
+    launch(device, kernel("instance_leaves"), "leaf boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
+           fit.points, fit.stride, fit.errors, fit.boxes, fit.count);
+    launch(device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots", 1, topology.offsets,
+           fit.boxes, 1u);
+    const NodeLevels levels = node_levels(device, topology);
+    each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
+        launch(device, kernel("merge_errors"), "merged errors", size, levels.nodes, first, size, topology.children,
+               fit.errors);
+    });
+    fit_inner_nodes(fit, levels);
+    launch(device, kernel("place_leaves"), "placed boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
+           fit.boxes, fit.count);
     return std::move(fit.boxes);
 }
 
