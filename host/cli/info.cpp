@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// boxwood info: what a scene or a .bxw file holds.
+// boxwood info: what a scene or a .bxw file holds, and the boxes of its tree as lines.
+#include <charconv>
 #include <iostream>
 #include <memory>
 
 #include "cli/input.hpp"
 #include "cli/report.hpp"
+#include "hierarchy/tree_boxes.hpp"
+#include "io/gltf_lines.hpp"
 
 namespace boxwood::cli {
 
@@ -14,7 +17,39 @@ struct Arguments {
     Common common;
     std::filesystem::path file;
     bool json = false;
+    std::filesystem::path boxes;
+    DepthRange depths{0, 4};
+    BuildChoice choice;
 };
+
+/// "3" or "0-5".
+DepthRange to_depths(const std::string& text) {
+    DepthRange depths;
+    const char* const end = text.data() + text.size();
+    auto read = std::from_chars(text.data(), end, depths.first);
+    depths.last = depths.first;
+    if (read.ec == std::errc() && read.ptr != end && *read.ptr == '-')
+        read = std::from_chars(read.ptr + 1, end, depths.last);
+    if (read.ec != std::errc() || read.ptr != end || depths.first > depths.last)
+        throw CLI::ValidationError("--depth", "\"" + text + "\" is not a range of depths, such as 0-4");
+    return depths;
+}
+
+/// The tree of a .bxw file as it is stored, that of a scene built; the latter alone needs a device.
+void export_boxes(const Arguments& arguments, const Input& input) {
+    std::optional<TreeImage> built;
+    if (!input.tree || arguments.choice.given()) {
+        Device device = open_device(arguments.common);
+        built = download(device, prepare(device, input, arguments.choice).tree);
+    }
+    const Scene lines = box_lines(built ? *built : *input.tree, input.scene, arguments.depths);
+    save_glb_lines(arguments.boxes, lines);
+    std::size_t boxes = 0;
+    for (const Mesh& mesh : lines.meshes) boxes += mesh.positions.size() / 8;
+    if (!arguments.common.quiet && !arguments.json)
+        std::cout << "  boxes       " << grouped(boxes) << " at depths " << arguments.depths.first << " to "
+                  << arguments.depths.last << " in " << arguments.boxes.string() << '\n';
+}
 
 Json cameras_report(const Scene& scene) {
     Json cameras = Json::array();
@@ -60,6 +95,10 @@ void print_tree(const TreeImage& tree) {
 }
 
 void run(const Arguments& arguments) {
+    arguments.choice.check();
+    check_output(arguments.boxes, ".glb");
+    if (arguments.boxes.empty() && arguments.choice.given())
+        throw UsageError("build options are of use with --boxes only");
     const Input input = load_input(arguments.file, arguments.common.quiet);
     if (arguments.json) {
         Json report = {{"boxwood", BOXWOOD_VERSION}, {"scene", scene_report(input)}};
@@ -70,6 +109,7 @@ void run(const Arguments& arguments) {
         print_scene(input);
         if (input.tree) print_tree(*input.tree);
     }
+    if (!arguments.boxes.empty()) export_boxes(arguments, input);
 }
 
 } // namespace
@@ -79,8 +119,17 @@ Command add_info(CLI::App& tool) {
     const auto arguments = std::make_shared<Arguments>();
     app->add_option("FILE", arguments->file, "glTF 2.0 scene or .bxw file")->required()->type_name("");
     app->add_flag("--json", arguments->json, "As JSON, for scripts");
+    CLI::Option* boxes = app->add_option(
+        "--boxes", arguments->boxes, "Write the boxes of the tree's nodes as lines to this binary glTF file (.glb)");
+    app->add_option_function<std::string>(
+           "--depth", [arguments](const std::string& text) { arguments->depths = to_depths(text); },
+           "Depths of the nodes for --boxes, the roots having 0 (default: 0-4)")
+        ->type_name("A-B")
+        ->needs(boxes);
+    add_build_options(*app, arguments->choice);
     add_common(*app, arguments->common);
-    add_example(*app, "  boxwood info forest.bxw --json");
+    add_example(*app, "  boxwood info forest.bxw --json\n"
+                      "  boxwood info forest.glb --boxes boxes.glb --depth 0-6 --bounds obb-points");
     return {app, [arguments] { run(*arguments); }};
 }
 

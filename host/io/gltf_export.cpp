@@ -15,6 +15,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "io/atomic_file.hpp"
+#include "io/gltf_lines.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
@@ -91,12 +92,14 @@ void append_vector(std::string& text, const glm::vec3& value) {
 std::uint64_t position_bytes(const Mesh& mesh) { return std::uint64_t{12} * mesh.positions.size(); }
 std::uint64_t triangle_bytes(const Mesh& mesh) { return std::uint64_t{12} * mesh.triangles.size(); }
 
+enum class Mode { triangles, lines };
+
 // Mesh i has accessors and buffer views 2i (positions) and 2i + 1 (indices), in this order in the binary chunk.
-void append_meshes(std::string& text, const std::vector<Mesh>& meshes) {
+void append_meshes(std::string& text, const std::vector<Mesh>& meshes, Mode mode) {
     Array list(text, "meshes");
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         list.next() += "{\"primitives\":[{\"attributes\":{\"POSITION\":" + std::to_string(2 * i) +
-                       "},\"indices\":" + std::to_string(2 * i + 1) + "}]";
+                       "},\"indices\":" + std::to_string(2 * i + 1) + (mode == Mode::lines ? ",\"mode\":1}]" : "}]");
         if (!meshes[i].name.empty()) text += ",\"name\":" + quoted(meshes[i].name);
         text += '}';
     }
@@ -174,10 +177,10 @@ void append_nodes(std::string& text, const Scene& scene) {
 }
 
 // glTF forbids empty arrays, so what a scene lacks is left out.
-std::string make_json(const Scene& scene) {
+std::string make_json(const Scene& scene, Mode mode) {
     std::string text = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Boxwood\"},\"scene\":0";
     if (!scene.meshes.empty()) {
-        append_meshes(text, scene.meshes);
+        append_meshes(text, scene.meshes, mode);
         append_accessors(text, scene.meshes);
         append_buffer_views(text, scene.meshes);
     }
@@ -202,11 +205,9 @@ void write_array(std::ostream& out, const std::vector<T>& values) {
     out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
-} // namespace
-
-void save_glb(const std::filesystem::path& file, const Scene& scene) {
+void save(const std::filesystem::path& file, const Scene& scene, Mode mode) {
     validate(scene, file.string());
-    const std::string text = make_json(scene);
+    const std::string text = make_json(scene, mode);
     std::uint64_t binary = 0;
     for (const Mesh& mesh : scene.meshes) binary += position_bytes(mesh) + triangle_bytes(mesh);
     const std::uint64_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
@@ -231,5 +232,11 @@ void save_glb(const std::filesystem::path& file, const Scene& scene) {
     }
     target.commit();
 }
+
+} // namespace
+
+void save_glb(const std::filesystem::path& file, const Scene& scene) { save(file, scene, Mode::triangles); }
+
+void save_glb_lines(const std::filesystem::path& file, const Scene& scene) { save(file, scene, Mode::lines); }
 
 } // namespace boxwood

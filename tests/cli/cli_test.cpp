@@ -39,7 +39,7 @@ TEST_CASE("cli: help on the tool and every command, with an example") {
     const Tool tool;
     const Run all = tool.succeed("--help");
     CHECK(tool.succeed("--version").out.starts_with("boxwood "));
-    for (const std::string command : {"devices", "scene", "build", "info", "trace", "render"}) {
+    for (const std::string command : {"devices", "scene", "build", "info", "quality", "trace", "render"}) {
         CAPTURE(command);
         CHECK(all.out.find(command) != std::string::npos);
         const Run help = tool.succeed(command + " --help");

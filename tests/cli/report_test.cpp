@@ -46,7 +46,8 @@ TEST_CASE("report: the keys of every command") {
     check_base(build);
     check_keys(build["passes_ms"],
                {"bounds", "morton", "sort", "hierarchy", "volumes", "collapse", "top_level", "total"});
-    check_keys(build["quality"], {"sah", "sum_volume", "sum_area", "max_depth", "nodes"});
+    check_keys(build["quality"],
+               {"sah", "sum_volume", "sum_area", "obb_smaller_fraction", "max_depth", "nodes", "bottom", "top"});
     CHECK(build["requirements"] == Json{"two-levels"});
     CHECK(build["options"] == Json{{"levels", "auto"},
                                    {"layout", "wide8"},
