@@ -10,7 +10,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr std::uint32_t segments = 12;
+constexpr std::uint32_t segments = 8;
 constexpr std::uint64_t strand_triangles = 6 * segments + 2;
 constexpr std::uint64_t strands_per_bundle = 32;
 
@@ -79,9 +79,9 @@ Scene make_hair(const ProceduralOptions& options) {
         const glm::dvec3 direction = oblique_direction(random);
         const glm::dvec3 bend = 0.25 * random_point(random, 1.0) - 0.125;
         for (std::uint64_t i = 0; i < strands_per_bundle && bundle * strands_per_bundle + i < strands; ++i) {
-            const glm::dvec3 offset = cell * random_point(random, 1.0) * glm::dvec3(1.0, 0.0, 1.0);
+            const glm::dvec3 offset = 0.25 * cell * random_point(random, 1.0) * glm::dvec3(1.0, 0.0, 1.0);
             const double length = random.uniform(0.5f, 0.75f);
-            add_strand(mesh, {root + offset, direction, bend, length, 0x1p-7 * cell});
+            add_strand(mesh, {root + offset, direction, bend, length, 0x1p-9 * cell});
         }
     }
     return single_mesh_scene(std::move(mesh), {1.5, 1.75, 2.25}, {0.0, 0.25, 0.0});

@@ -20,7 +20,7 @@ Scene make_sphere(const ProceduralOptions& options);
 Scene make_forest(const ProceduralOptions& options);
 /// The outside faces of a Menger sponge in [-1, 1]^3; 4 * 20^level + 8 * 8^level triangles.
 Scene make_menger(const ProceduralOptions& options);
-/// Bundles of curved strands over [-1, 1]^2, leaning between the axes; 74 triangles a strand, closed.
+/// Bundles of curved strands over [-1, 1]^2, leaning between the axes; 50 triangles a strand, closed.
 Scene make_hair(const ProceduralOptions& options);
 /// Piles of long thin boards in [-1, 1]^3, each pile under a random rotation; 12 triangles a board, closed.
 Scene make_planks(const ProceduralOptions& options);
