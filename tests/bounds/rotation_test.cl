@@ -1,34 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Rotations on arrays of quaternions and matrices, structures of arrays: component k of element i is at k * count + i.
-// `count` is a multiple of LANES. Macros: LANES.
+// Rotations on arrays of quaternions and matrices (bounds/lanes_of.h). Macros: LANES.
 // compile: LANES=1
 // compile: LANES=8
+#include "bounds/lanes_of.h"
 #include "bounds/rotation.h"
 
-static void load_vector(global const float* in, uint count, uint at, Vector* v) {
-    v->x = LOAD_LANES(in + at);
-    v->y = LOAD_LANES(in + count + at);
-    v->z = LOAD_LANES(in + 2 * count + at);
-}
-
-static void load_rows(global const float* in, uint count, uint at, Frame* frame) {
-    load_vector(in, count, at, &frame->a);
-    load_vector(in + 3 * count, count, at, &frame->b);
-    load_vector(in + 6 * count, count, at, &frame->c);
-}
-
 static void load_quaternion(global const float* in, uint count, uint at, Quaternion* q) {
-    q->x = LOAD_LANES(in + at);
-    q->y = LOAD_LANES(in + count + at);
-    q->z = LOAD_LANES(in + 2 * count + at);
-    q->w = LOAD_LANES(in + 3 * count + at);
+    real v[4];
+    load_components(in, count, at, v, 4);
+    const Quaternion loaded = {v[0], v[1], v[2], v[3]};
+    *q = loaded;
 }
 
 static void store_quaternion(const Quaternion* q, global float* out, uint count, uint at) {
-    STORE_LANES(q->x, out + at);
-    STORE_LANES(q->y, out + count + at);
-    STORE_LANES(q->z, out + 2 * count + at);
-    STORE_LANES(q->w, out + 3 * count + at);
+    const real v[4] = {q->x, q->y, q->z, q->w};
+    store_components(v, out, count, at, 4);
 }
 
 /// Frames to quaternions.
@@ -53,12 +39,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void frame_test(g
     Frame frame;
     load_quaternion(quaternions, count, at, &q);
     frame_of(&q, &frame);
-    const Vector rows[3] = {frame.a, frame.b, frame.c};
-    for (uint k = 0; k < 3; ++k) {
-        STORE_LANES(rows[k].x, frames + (3 * k) * count + at);
-        STORE_LANES(rows[k].y, frames + (3 * k + 1) * count + at);
-        STORE_LANES(rows[k].z, frames + (3 * k + 2) * count + at);
-    }
+    store_rows(&frame, frames, count, at);
 }
 
 /// Half-way rotations between boxes.

@@ -71,19 +71,28 @@ struct Oracle {
     Operator op;
     Folded<T> folded;
 };
-template <>
-struct Oracle<cl_float4> {
-    explicit Oracle(Operator op_) : op(op_) { std::fill_n(folded, 4, Folded<float>::start(op_)); }
-    void add(const cl_float4& next) {
+/// Four components.
+template <class T, class S>
+struct Oracle4 {
+    explicit Oracle4(Operator op_) : op(op_) { std::fill_n(folded, 4, Folded<S>::start(op_)); }
+    void add(const T& next) {
         for (int k = 0; k < 4; ++k) folded[k].add(next.s[k], op);
     }
-    bool accepts(const cl_float4& actual) const {
+    bool accepts(const T& actual) const {
         for (int k = 0; k < 4; ++k)
             if (!folded[k].accepts(actual.s[k], op)) return false;
         return true;
     }
     Operator op;
-    Folded<float> folded[4];
+    Folded<S> folded[4];
+};
+template <>
+struct Oracle<cl_float4> : Oracle4<cl_float4, float> {
+    using Oracle4::Oracle4;
+};
+template <>
+struct Oracle<cl_ulong4> : Oracle4<cl_ulong4, cl_ulong> {
+    using Oracle4::Oracle4;
 };
 template <>
 struct Oracle<Aabb> {

@@ -58,6 +58,14 @@ struct Make<cl_float4> {
     }
 };
 template <>
+struct Make<cl_ulong4> {
+    static cl_ulong4 value(Random& random) {
+        cl_ulong4 v;
+        for (cl_ulong& s : v.s) s = random.bits();
+        return v;
+    }
+};
+template <>
 struct Make<Aabb> {
     static Aabb value(Random& random) {
         Aabb box;

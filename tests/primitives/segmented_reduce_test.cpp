@@ -60,7 +60,7 @@ Offsets random_offsets(std::size_t count, std::uint64_t salt) {
 } // namespace
 
 TEST_CASE_TEMPLATE("segmented_reduce: segments of random lengths", T, std::int32_t, std::uint32_t, std::uint64_t, float,
-                   cl_float4, Aabb) {
+                   cl_float4, cl_ulong4, Aabb) {
     const std::size_t size = small_sizes() ? 2101 : 400001;
     for (const Operator op : operators<T>()) check_segments<T>(size, random_offsets(size, 31), op);
 }
