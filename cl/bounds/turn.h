@@ -25,52 +25,68 @@ INLINE void ends_of(const Vector* points, int count, const Frame* axes, Slabs* e
     for (int i = 0; i < count; ++i) add_point(axes, &points[i], ends);
 }
 
+/// The point after `here` on the hull of points in the plane, clockwise seen from inside: the others lie to one side of the
+/// line through both. Points closer than SAME count as the same. -1 where there is no other.
+#define SAME 0x1p-18f
+static int next_on_hull(const float* x, const float* y, int count, int here) {
+    int next = -1;
+    float u = 0.0f, v = 0.0f;
+    for (int i = 0; i < count; ++i) {
+        const float to_x = x[i] - x[here], to_y = y[i] - y[here];
+        if (!(fmax(fabs(to_x), fabs(to_y)) > SAME)) continue;
+        if (next >= 0 && !(fma(u, to_y, -(v * to_x)) < 0.0f)) continue;
+        next = i;
+        u = to_x;
+        v = to_y;
+    }
+    return next;
+}
+
 /// Turns the frame about its third axis so that the box around the points has the smallest surface area. An edge of
-/// their hull in the plane of the first two axes then lies on the box (Freeman and Shapira 1975), so the directions
-/// between any two points are tried, but for those that clearly are no edge of the hull. O(count^3).
+/// their hull in the plane of the first two axes then lies on the box (Freeman and Shapira 1975), so those are tried, at most
+/// as many as there are points. O(count^2).
 static void turn_about_third(const Vector* points, int count, Frame* axes, float* area) {
     float x[EXTREMES], y[EXTREMES];
     float low = INFINITY, high = -INFINITY;
+    int first = 0;
     for (int i = 0; i < count; ++i) {
         x[i] = dot3(&axes->a, &points[i]);
         y[i] = dot3(&axes->b, &points[i]);
         const float z = dot3(&axes->c, &points[i]);
         widen(z, z, &low, &high);
+        if (x[i] < x[first]) first = i;
     }
     const float height = high - low;
     float best_x = 1.0f, best_y = 0.0f;
-    for (int i = 0; i < count; ++i)
-        for (int j = i + 1; j < count; ++j) {
-            float u = x[j] - x[i], v = y[j] - y[i];
-            const float most = fmax(fabs(u), fabs(v));
-            if (!(most > 0x1p-18f)) continue; // the distance is rounding, beside a size of one or two
-            u /= most;
-            v /= most;
-            const float factor = 1.0f / sqrt(fma(u, u, v * v));
-            u *= factor;
-            v *= factor;
-            const float own = fma(u, y[i], -(v * x[i]));
-            float from = INFINITY, to = -INFINITY, across_from = own, across_to = own;
-            for (int k = 0; k < count; ++k) {
-                const float along_edge = fma(u, x[k], v * y[k]), across = fma(u, y[k], -(v * x[k]));
-                widen(along_edge, along_edge, &from, &to);
-                widen(across, across, &across_from, &across_to);
-                if (own - across_from > 0x1p-18f && across_to - own > 0x1p-18f) break; // points on both sides
-            }
-            if (own - across_from > 0x1p-18f && across_to - own > 0x1p-18f) continue;
-            const float width = to - from, depth = across_to - across_from;
-            const float found = fma(width, depth, height * (width + depth));
-            if (found < *area) {
-                *area = found;
-                best_x = u;
-                best_y = v;
-            }
+    int here = first;
+    for (int step = 0; step < count; ++step) {
+        const int next = next_on_hull(x, y, count, here);
+        if (next < 0) break;
+        float u = x[next] - x[here], v = y[next] - y[here];
+        const float factor = 1.0f / sqrt(fma(u, u, v * v));
+        u *= factor;
+        v *= factor;
+        float from = INFINITY, to = -INFINITY, across_from = INFINITY, across_to = -INFINITY;
+        for (int k = 0; k < count; ++k) {
+            const float along_edge = fma(u, x[k], v * y[k]), across = fma(u, y[k], -(v * x[k]));
+            widen(along_edge, along_edge, &from, &to);
+            widen(across, across, &across_from, &across_to);
         }
-    const Vector first = axes->a;
+        const float width = to - from, depth = across_to - across_from;
+        const float found = fma(width, depth, height * (width + depth));
+        if (found < *area) {
+            *area = found;
+            best_x = u;
+            best_y = v;
+        }
+        here = next;
+        if (here == first) break;
+    }
+    const Vector old = axes->a;
     scale3(best_x, &axes->a);
     add_scaled3(best_y, &axes->b, &axes->a);
     scale3(best_x, &axes->b);
-    add_scaled3(-best_y, &first, &axes->b);
+    add_scaled3(-best_y, &old, &axes->b);
     orthonormalise(axes);
 }
 
@@ -79,8 +95,10 @@ static void turn_from(const Vector* points, int count, Frame start, Frame* best,
     Slabs ends;
     ends_of(points, count, &start, &ends);
     float area = half_area(&ends);
-    for (int turn = 0; turn < 9; ++turn) { // three about each axis
+    for (int turn = 0, idle = 0; turn < 9 && idle < 3; ++turn) { // up to three about each axis
+        const float before = area;
         turn_about_third(points, count, &start, &area);
+        idle = area < before ? 0 : idle + 1;
         const Frame next = {start.b, start.c, start.a};
         start = next;
     }
