@@ -111,19 +111,21 @@ INLINE void store_rows4(real* v, global float* base, uint stride, const uint* in
 #else
 
 INLINE void load_rows8(global const float* base, uint stride, const uint* index, real* v) {
-    for (int k = 0; k < 8; ++k) v[k] = base[stride * (size_t)index[0] + k];
+    vstore8(vload8(0, base + stride * (size_t)index[0]), 0, v);
 }
 INLINE void load_rows6(global const float* base, uint stride, const uint* index, real* v) {
-    for (int k = 0; k < 6; ++k) v[k] = base[stride * (size_t)index[0] + k];
+    global const float* row = base + stride * (size_t)index[0];
+    vstore4(vload4(0, row), 0, v);
+    vstore2(vload2(2, row), 2, v);
 }
 INLINE void load_rows4(global const float* base, uint stride, const uint* index, real* v) {
-    for (int k = 0; k < 4; ++k) v[k] = base[stride * (size_t)index[0] + k];
+    vstore4(vload4(0, base + stride * (size_t)index[0]), 0, v);
 }
 INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
-    for (int k = 0; k < 8; ++k) base[stride * (size_t)index[0] + k] = v[k];
+    vstore8(vload8(0, v), 0, base + stride * (size_t)index[0]);
 }
 INLINE void store_rows4(real* v, global float* base, uint stride, const uint* index, uint count) {
-    for (int k = 0; k < 4; ++k) base[stride * (size_t)index[0] + k] = v[k];
+    vstore4(vload4(0, v), 0, base + stride * (size_t)index[0]);
 }
 
 #endif
