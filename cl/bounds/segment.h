@@ -73,7 +73,9 @@ INLINE void store_slabs(const Slabs* slabs, global Aabb* target) {
 
 INLINE void load_slabs(global const Aabb* source, Slabs* slabs) {
     global const float* floats = (global const float*)source;
-    const Vector low = {floats[0], floats[1], floats[2]}, high = {floats[3], floats[4], floats[5]};
+    const float4 a = vload4(0, floats);
+    const float2 b = vload2(2, floats);
+    const Vector low = {a.x, a.y, a.z}, high = {a.w, b.x, b.y};
     slabs->low = low;
     slabs->high = high;
 }
