@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "oracles/reference_obb.hpp"
+
 namespace boxwood::test {
 
 namespace {
@@ -101,12 +103,19 @@ BinaryTree make_binary(const std::vector<Box>& boxes, Shape shape) {
     return tree;
 }
 
-/// Turns binary trees into one layout. `add_leaf` stores the primitives of a node and returns its leaf index.
+/// The vertices of each primitive, and how far each may be off.
+struct Corners {
+    std::vector<std::vector<glm::dvec3>> of;
+    double slack = 0.0;
+};
+
+/// Turns binary trees into one layout. `add_leaf` stores the primitives of a node and returns its leaf index; `corners`
+/// are read for oriented boxes.
 template <class AddLeaf>
 class Emitter {
 public:
-    Emitter(const BinaryTree& tree, std::uint32_t leaf_size, AddLeaf add_leaf)
-        : tree_(tree), leaf_size_(leaf_size), add_leaf_(add_leaf) {}
+    Emitter(const BinaryTree& tree, std::uint32_t leaf_size, const Corners& corners, AddLeaf add_leaf)
+        : tree_(tree), leaf_size_(leaf_size), corners_(corners), add_leaf_(add_leaf) {}
 
     /// Appends the tree to `nodes` and returns its depth.
     std::uint32_t emit(std::vector<BinaryNode>& nodes, int source = 0) {
@@ -117,10 +126,26 @@ public:
         const auto empty = to_aabb({});
         made.bounds[0] = made.bounds[1] = empty;
         made.child[0] = made.child[1] = BOXWOOD_NONE;
-        return append(nodes, made, children, [](BinaryNode& n, std::size_t slot, const Aabb& box, std::uint32_t ref) {
-            n.bounds[slot] = box;
+        return append(nodes, made, children, [](BinaryNode& n, std::size_t slot, const Node& child, std::uint32_t ref) {
+            n.bounds[slot] = to_aabb(child.box);
             n.child[slot] = ref;
         });
+    }
+
+    std::uint32_t emit(std::vector<OrientedNode>& nodes, int source = 0) {
+        const Node& node = tree_.nodes[static_cast<std::size_t>(source)];
+        std::vector<int> children{node.left, node.right};
+        if (node.count == 1) children = {source};
+        OrientedNode made{};
+        for (float* volume : {made.volume[0], made.volume[1]}) {
+            std::fill_n(volume, 3, infinity);
+            std::fill_n(volume + 3, 3, -infinity);
+        }
+        made.child[0] = made.child[1] = BOXWOOD_NONE;
+        return append(nodes, made, children,
+                      [&](OrientedNode& n, std::size_t slot, const Node& child, std::uint32_t ref) {
+                          n.child[slot] = set_volume(child, n.volume[slot]) ? ref | BOXWOOD_ALIGNED : ref;
+                      });
     }
 
     std::uint32_t emit(std::vector<Wide8Node>& nodes, int source = 0) {
@@ -140,7 +165,8 @@ public:
             made.child[slot] = BOXWOOD_NONE;
         }
         made.count = static_cast<std::uint32_t>(children.size());
-        return append(nodes, made, children, [](Wide8Node& n, std::size_t slot, const Aabb& box, std::uint32_t ref) {
+        return append(nodes, made, children, [](Wide8Node& n, std::size_t slot, const Node& child, std::uint32_t ref) {
+            const Aabb box = to_aabb(child.box);
             n.min_x[slot] = box.min[0], n.min_y[slot] = box.min[1], n.min_z[slot] = box.min[2];
             n.max_x[slot] = box.max[0], n.max_y[slot] = box.max[1], n.max_z[slot] = box.max[2];
             n.child[slot] = ref;
@@ -150,6 +176,22 @@ public:
 private:
     const Node& at(int index) const { return tree_.nodes[static_cast<std::size_t>(index)]; }
     double opening_area(int index) const { return at(index).count <= leaf_size_ ? -1.0 : at(index).box.half_area(); }
+
+    /// The volume of a node; whether it is aligned.
+    bool set_volume(const Node& node, float* volume) {
+        const std::uint32_t choice = random_.below(4);
+        if (choice == 0) {
+            const Aabb box = to_aabb(node.box);
+            std::copy_n(box.min, 3, volume);
+            std::copy_n(box.max, 3, volume + 3);
+            return true;
+        }
+        std::vector<glm::dvec3> points;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+            points.insert(points.end(), corners_.of[tree_.order[i]].begin(), corners_.of[tree_.order[i]].end());
+        store_volume(box_around(random_rows(random_, choice == 1), points, corners_.slack), volume);
+        return false;
+    }
 
     template <class AnyNode, class Set>
     std::uint32_t append(std::vector<AnyNode>& nodes, const AnyNode& made, const std::vector<int>& children, Set set) {
@@ -167,14 +209,16 @@ private:
                 reference = static_cast<std::uint32_t>(nodes.size());
                 depth = std::max(depth, emit(nodes, children[slot]));
             }
-            set(nodes[index], slot, to_aabb(child.box), reference);
+            set(nodes[index], slot, child, reference);
         }
         return depth + 1;
     }
 
     const BinaryTree& tree_;
     std::uint32_t leaf_size_;
+    const Corners& corners_;
     AddLeaf add_leaf_;
+    Random random_{77};
 };
 
 void store(const std::array<glm::vec3, 3>& c, std::uint32_t primitive, Triangle& out) {
@@ -196,18 +240,21 @@ std::uint32_t add_bottom(TreeImage& image, const std::vector<std::array<glm::vec
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (const glm::vec3& p : triangles[i]) boxes[i].add(p);
     const BinaryTree tree = make_binary(boxes, shape);
+    const bool oriented = image.bounds != Bounds::aabb;
+    Corners corners;
+    for (const auto& triangle : triangles) corners.of.emplace_back(triangle.begin(), triangle.end());
     std::size_t root = 0;
     std::uint32_t depth = 0;
     if (image.layout == Layout::binary) {
-        root = image.binary_nodes.size();
-        Emitter emitter(tree, 1, [&](const std::vector<std::uint32_t>& leaf) {
+        root = oriented ? image.oriented_nodes.size() : image.binary_nodes.size();
+        Emitter emitter(tree, 1, corners, [&](const std::vector<std::uint32_t>& leaf) {
             store(triangles[leaf[0]], leaf[0], image.triangles.emplace_back());
             return static_cast<std::uint32_t>(image.triangles.size() - 1);
         });
-        depth = emitter.emit(image.binary_nodes);
+        depth = oriented ? emitter.emit(image.oriented_nodes) : emitter.emit(image.binary_nodes);
     } else {
         root = image.wide_nodes.size();
-        Emitter emitter(tree, 4, [&](std::vector<std::uint32_t> leaf) {
+        Emitter emitter(tree, 4, corners, [&](std::vector<std::uint32_t> leaf) {
             std::sort(leaf.begin(), leaf.end());
             Triangle4 made{};
             std::fill(std::begin(made.primitive), std::end(made.primitive), BOXWOOD_NONE);
@@ -225,24 +272,32 @@ glm::dvec3 transform(const glm::mat4& matrix, const glm::vec3& p) {
     return glm::dvec3(glm::dmat4(matrix) * glm::dvec4(p, 1.0));
 }
 
-/// Encloses an instance with room for the rounding of the ray's transformation to object space.
-Box instance_box(const Scene& scene, const Instance& instance) {
-    Box box;
-    for (const glm::vec3& p : scene.meshes[instance.mesh].positions)
-        box.add(glm::vec3(transform(instance.transform, p)));
+/// Room for the rounding of the ray's transformation to object space.
+float slack_of(const Box& box) {
     const glm::vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-    const float slack = 0x1p-20f * std::max({reach.x, reach.y, reach.z});
-    box.low -= slack;
-    box.high += slack;
-    return box;
+    return 0x1p-20f * std::max({reach.x, reach.y, reach.z});
 }
 
 void add_top(TreeImage& image, const Scene& scene, Shape shape) {
     std::vector<Box> boxes;
-    for (const Instance& instance : scene.instances) boxes.push_back(instance_box(scene, instance));
+    Corners corners;
+    for (const Instance& instance : scene.instances) {
+        Box& box = boxes.emplace_back();
+        auto& points = corners.of.emplace_back();
+        for (const glm::vec3& p : scene.meshes[instance.mesh].positions) {
+            points.push_back(transform(instance.transform, p));
+            box.add(glm::vec3(points.back()));
+        }
+        const float slack = slack_of(box);
+        box.low -= slack;
+        box.high += slack;
+        corners.slack = std::max(corners.slack, static_cast<double>(slack));
+    }
     const BinaryTree tree = make_binary(boxes, shape);
-    Emitter emitter(tree, 1, [](const std::vector<std::uint32_t>& leaf) { return leaf[0]; });
-    image.top_depth = image.layout == Layout::binary ? emitter.emit(image.binary_top) : emitter.emit(image.wide_top);
+    Emitter emitter(tree, 1, corners, [](const std::vector<std::uint32_t>& leaf) { return leaf[0]; });
+    image.top_depth = image.bounds != Bounds::aabb     ? emitter.emit(image.oriented_top)
+                      : image.layout == Layout::binary ? emitter.emit(image.binary_top)
+                                                       : emitter.emit(image.wide_top);
 }
 
 } // namespace
@@ -280,10 +335,11 @@ std::vector<InstanceRecord> reference_records(const Scene& scene) {
     return records;
 }
 
-TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Shape shape) {
+TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds, Shape shape) {
     TreeImage image;
     image.layout = layout;
     image.levels = levels;
+    image.bounds = bounds;
     if (scene.instances.empty()) return image;
     if (levels == Levels::one) {
         std::vector<std::array<glm::vec3, 3>> all;

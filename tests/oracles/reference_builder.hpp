@@ -14,8 +14,10 @@ namespace boxwood::test {
 /// gives the deepest tree there is.
 enum class Shape { sah, chain };
 
-/// A valid image of the scene, exact float boxes over the vertices below, conservative ones above.
-TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Shape shape = Shape::sah);
+/// A valid image of the scene, exact float boxes over the vertices below, conservative ones above. For any oriented kind
+/// three of four nodes have an oriented box with axes at random (see reference_obb.hpp), one in four a sheared one.
+TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds = Bounds::aabb,
+                         Shape shape = Shape::sah);
 
 /// The triangles of a mesh.
 std::vector<std::array<glm::vec3, 3>> corners(const Mesh& mesh);

@@ -79,10 +79,10 @@ TEST_CASE("traversal: a scene times 2^k gives the same bits") {
     const std::vector<Ray> rays = random_rays(random, small_sizes() ? 40u : 1000u, 2.0f);
     for (const Kind& kind : all_kinds) {
         CAPTURE(words(kind));
-        const std::vector<Hit> expected = trace(reference_tree(scene, kind.layout, kind.levels), rays);
+        const std::vector<Hit> expected = trace(reference_tree(scene, kind.layout, kind.levels, kind.bounds), rays);
         for (const int k : {-40, -17, 1, 23, 40}) {
             CAPTURE(k);
-            const TreeImage tree = reference_tree(scaled(scene, k), kind.layout, kind.levels);
+            const TreeImage tree = reference_tree(scaled(scene, k), kind.layout, kind.levels, kind.bounds);
             CHECK(count_different(trace(tree, scaled(rays, k)), expected) == 0);
         }
     }
@@ -94,7 +94,7 @@ TEST_CASE("traversal: directions of any length, t in their units") {
     std::vector<Ray> rays = random_rays(random, small_sizes() ? 40u : 400u, 1.0f);
     for (Ray& ray : rays) ray.t_min = 0.0f, ray.t_max = infinity;
     for (const Kind& kind : all_kinds) {
-        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels);
+        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels, kind.bounds);
         const std::vector<Hit> expected = trace(tree, rays);
         // 2^100 and 2^-100 would over- and underflow in products of a direction and two edges. At 2^-140 directions
         // keep fewer bits, so only that something is hit and nothing is NaN can be asked for.
@@ -137,7 +137,7 @@ TEST_CASE("traversal: rays that are not valid hit nothing") {
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}};
     for (const Kind& kind : all_kinds) {
-        const TreeImage tree = reference_tree(single(mesh), kind.layout, kind.levels);
+        const TreeImage tree = reference_tree(single(mesh), kind.layout, kind.levels, kind.bounds);
         const std::vector<Hit> hits = trace(tree, rays);
         const std::vector<std::uint32_t> any = trace_any(tree, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {

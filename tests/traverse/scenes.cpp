@@ -117,7 +117,7 @@ std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b
 
 std::string words(const Kind& kind) {
     return std::string(kind.layout == Layout::wide8 ? "wide8" : "binary") +
-           (kind.levels == Levels::two ? ", two levels" : ", one level");
+           (kind.levels == Levels::two ? ", two levels, " : ", one level, ") + std::string(name(kind.bounds));
 }
 
 } // namespace boxwood::test

@@ -32,15 +32,18 @@ std::vector<std::uint32_t> trace_any(const TreeImage& tree, const std::vector<Ra
 /// How many hits differ in any bit but the sign of a zero.
 std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b);
 
-/// One combination of layout and levels.
+/// One combination of layout, levels and volumes.
 struct Kind {
     Layout layout;
     Levels levels;
+    Bounds bounds = Bounds::aabb;
 };
 inline constexpr Kind all_kinds[] = {{Layout::binary, Levels::one},
                                      {Layout::wide8, Levels::one},
                                      {Layout::binary, Levels::two},
-                                     {Layout::wide8, Levels::two}};
+                                     {Layout::wide8, Levels::two},
+                                     {Layout::binary, Levels::one, Bounds::obb_points},
+                                     {Layout::binary, Levels::two, Bounds::obb_points}};
 std::string words(const Kind& kind);
 
 } // namespace boxwood::test

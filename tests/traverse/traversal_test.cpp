@@ -19,7 +19,7 @@ namespace {
 void check_all_queries(const Scene& scene, const std::vector<Ray>& rays, Shape shape = Shape::sah) {
     for (const Kind& kind : all_kinds) {
         CAPTURE(words(kind));
-        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels, shape);
+        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels, kind.bounds, shape);
         const std::vector<Hit> expected = BruteForce(scene, kind.levels).closest_hits(rays);
         const std::vector<Hit> hits = trace(tree, rays);
         CHECK(count_different(hits, expected) == 0);
@@ -137,7 +137,7 @@ TEST_CASE("traversal: the deepest tree fills the stack and no more") {
             mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
         }
         const Scene scene = single(mesh);
-        const TreeImage chain = reference_tree(scene, Layout::binary, Levels::one, Shape::chain);
+        const TreeImage chain = reference_tree(scene, Layout::binary, Levels::one, Bounds::aabb, Shape::chain);
         CHECK(chain.bottom_depth == triangles - 1);
         std::vector<Ray> rays;
         const auto end = static_cast<float>(triangles);
@@ -155,7 +155,7 @@ TEST_CASE("traversal: the deepest tree fills the stack and no more") {
 TEST_CASE("traversal: empty trees and no rays") {
     const std::vector<Ray> ray{{{0, 0, 0}, 0, {1, 0, 0}, 1}};
     for (const Kind& kind : all_kinds) {
-        const TreeImage empty = reference_tree({}, kind.layout, kind.levels);
+        const TreeImage empty = reference_tree({}, kind.layout, kind.levels, kind.bounds);
         std::vector<RayStatistics> statistics;
         const Hit hit = trace(empty, ray, statistics).at(0);
         CHECK(hit.t == std::numeric_limits<float>::infinity());
@@ -164,7 +164,8 @@ TEST_CASE("traversal: empty trees and no rays") {
         CHECK(statistics.at(0).volumes == 0);
         CHECK(trace_any(empty, ray).at(0) == 0);
         Random random(4);
-        const TreeImage tree = reference_tree(single(random_mesh(random, 9, 0.5f)), kind.layout, kind.levels);
+        const TreeImage tree =
+            reference_tree(single(random_mesh(random, 9, 0.5f)), kind.layout, kind.levels, kind.bounds);
         CHECK(trace(tree, {}).empty());
         CHECK(trace_any(tree, {}).empty());
     }
@@ -177,7 +178,7 @@ TEST_CASE("traversal: the same for every group size") {
     const std::vector<Ray> rays = random_rays(random, scaled_down(777), 2.0f);
     const Tuning before = test_device().tuning();
     for (const Kind& kind : all_kinds) {
-        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels);
+        const TreeImage tree = reference_tree(scene, kind.layout, kind.levels, kind.bounds);
         test_device().set_tuning({1, 4, 16});
         const std::vector<Hit> alone = trace(tree, rays);
         test_device().set_tuning({64, 128, 1});
