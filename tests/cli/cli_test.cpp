@@ -61,6 +61,12 @@ TEST_CASE("cli: wrong usage is code 2 and one line that says what is right") {
     check_failure(tool.run("build forest.glb -o x.bxw --layout wide4"), 2, "wide8");
     check_failure(tool.run("build forest.glb -o x.bxw --levels three"), 2, "auto");
     check_failure(tool.run("build forest.glb -o x.bxw --morton 31"), 2, "63");
+    check_failure(tool.run("build forest.glb -o x.bxw --bounds obb"), 2,
+                  "{aabb,obb-points,obb-boxes,obb-quaternion,obb-cascade,obb-moments,obb-refined}");
+    check_failure(tool.run("build forest.glb -o x.bxw --extents tight"), 2, "corners");
+    check_failure(tool.run("build forest.glb -o x.bxw --measure length"), 2, "area");
+    for (const std::string command : {"build forest.glb -o x.bxw", "trace forest.glb", "render forest.glb -o x.exr"})
+        check_failure(tool.run(command + " --layout wide8 --bounds obb-points"), 2, "--layout binary");
     check_failure(tool.run("scene teapot -o x.glb"), 2, "menger");
     check_failure(tool.run("scene sphere -o x.gltf"), 2, ".glb");
     check_failure(tool.run("scene sphere -o x.glb --triangles -5"), 2, "--triangles");
@@ -129,6 +135,7 @@ TEST_CASE("cli: build options beside a stored tree are refused") {
     tool.succeed("build forest.glb -o forest.bxw");
     check_failure(tool.run("trace forest.bxw --layout binary"), 2, "forest.bxw");
     check_failure(tool.run("render forest.bxw -o x.exr --levels one"), 2, "forest.bxw");
+    check_failure(tool.run("trace forest.bxw --bounds aabb"), 2, "forest.bxw");
     CHECK(tool.files() == Names{"forest.bxw", "forest.glb"});
 }
 

@@ -76,6 +76,21 @@ TEST_CASE("report: the keys of every command") {
     }
     tool.succeed("render forest.glb -o x.exr --resolution 32x16 --levels one --report render.json");
     CHECK(report(tool, "render.json")["requirements"] == Json{"instance-lookup"});
+
+    tool.succeed(
+        "build forest.glb -o forest.bxw --bounds obb-moments --extents corners --measure area --report b.json");
+    CHECK(report(tool, "b.json")["options"] == Json{{"levels", "auto"},
+                                                    {"layout", "binary"},
+                                                    {"bounds", "obb-moments"},
+                                                    {"extents", "corners"},
+                                                    {"measure", "area"},
+                                                    {"morton", 30}});
+    CHECK(report(tool, "b.json")["requirements"] == Json{"two-levels", "oriented-boxes"});
+    tool.succeed("trace forest.bxw --resolution 32x16 --report trace.json");
+    const Json stored = report(tool, "trace.json");
+    CHECK(stored["options"]["bounds"] == "obb-moments");
+    CHECK(stored["requirements"] == Json{"two-levels", "oriented-boxes", "statistics"});
+    CHECK(stored["quality"]["nodes"] == report(tool, "b.json")["quality"]["nodes"]);
 }
 
 TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
@@ -87,6 +102,7 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
     CHECK_FALSE(scene.contains("tree"));
     CHECK(file["tree"]["layout"] == "binary");
     CHECK(file["tree"]["levels"] == "two");
+    CHECK(file["tree"]["bounds"] == "aabb");
     scene["scene"].erase("file");
     file["scene"].erase("file");
     CHECK(scene["scene"] == file["scene"]);
@@ -96,8 +112,8 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
 TEST_CASE("report: a scene and its .bxw file give the same hits and the same picture") {
     const Tool tool;
     make_forest(tool);
-    for (const std::string options :
-         {"--layout wide8 --levels two", "--layout binary --levels one", "--layout wide8 --levels one --morton 63"}) {
+    for (const std::string options : {"--layout wide8 --levels two", "--layout binary --levels one",
+                                      "--layout wide8 --levels one --morton 63", "--bounds obb-points"}) {
         CAPTURE(options);
         tool.succeed("build forest.glb -o forest.bxw " + options);
         int kind = 0;

@@ -65,6 +65,10 @@ Scene two_level_scene(float shift) {
     return scene;
 }
 
+/// The layouts with the volumes that they hold.
+constexpr std::pair<Layout, Bounds> volumes[] = {
+    {Layout::binary, Bounds::aabb}, {Layout::wide8, Bounds::aabb}, {Layout::binary, Bounds::obb_boxes}};
+
 constexpr double tolerance = 1e-5; // sums of a few hundred floats, pairwise
 
 } // namespace
@@ -164,15 +168,15 @@ TEST_CASE("build: what cannot fit is refused before any work, with both numbers"
     CHECK(device.held_bytes() == held);
 }
 
-TEST_CASE("capacity: the largest buffer is a limit, for both layouts") {
+TEST_CASE("capacity: the largest buffer is a limit, for every layout") {
     Device& device = test_device();
     const std::uint64_t largest = device.info().largest_buffer_bytes;
-    for (const Layout layout : {Layout::binary, Layout::wide8}) {
-        CHECK_NOTHROW(check_capacity(device, layout, Bounds::aabb, 1000, 3000, 10));
-        CHECK_NOTHROW(check_capacity(device, layout, Bounds::aabb, 0, 0, 0));
+    for (const auto& [layout, bounds] : volumes) {
+        CHECK_NOTHROW(check_capacity(device, layout, bounds, 1000, 3000, 10));
+        CHECK_NOTHROW(check_capacity(device, layout, bounds, 0, 0, 0));
         const auto refused = [&](std::uint64_t triangles, std::uint64_t vertices, std::uint64_t instances) {
             try {
-                check_capacity(device, layout, Bounds::aabb, triangles, vertices, instances);
+                check_capacity(device, layout, bounds, triangles, vertices, instances);
             } catch (const CapacityError& error) {
                 return error.asked > error.available && error.available > 0;
             }
@@ -181,6 +185,8 @@ TEST_CASE("capacity: the largest buffer is a limit, for both layouts") {
         CHECK(refused(1000, largest / 12 + 1, 0));
         CHECK(refused(std::min<std::uint64_t>(largest / 48 + 1, 1u << 30), 3, 0));
         CHECK(refused(1000, 3000, std::min<std::uint64_t>(largest / 112 + 1, 1u << 30)));
+        if (bounds != Bounds::aabb) // two oriented boxes each
+            CHECK(refused(std::min<std::uint64_t>(largest / 128 + 1, 1u << 30), 3, 0));
         CHECK(refused(std::uint64_t(1) << 40, 3, 0));
         CHECK(refused(10, 3, std::uint64_t(1) << 30));
     }
@@ -194,15 +200,15 @@ TEST_CASE("capacity: what the device holds already is not available") {
     const std::size_t bytes = std::min<std::uint64_t>(largest, 0x7fffffff);
     while (device.held_bytes() + bytes <= memory) held.push_back(make_buffer<char>(device, bytes, "filler"));
     const std::uint64_t left = memory - device.held_bytes();
-    for (const Layout layout : {Layout::binary, Layout::wide8}) {
+    for (const auto& [layout, bounds] : volumes) {
         // Each array fits a buffer; positions and boxes of nodes together do not fit what is left.
-        const std::uint64_t vertices = bytes / 12, triangles = bytes / 64;
+        const std::uint64_t vertices = bytes / 12, triangles = bytes / 128;
         try {
-            check_capacity(device, layout, Bounds::aabb, triangles, vertices, 0);
+            check_capacity(device, layout, bounds, triangles, vertices, 0);
             FAIL("did not throw");
         } catch (const CapacityError& error) {
             CHECK(error.available == left);
-            CHECK(error.asked >= 12 * vertices + 48 * triangles);
+            CHECK(error.asked >= 12 * vertices + 48 * triangles + (bounds == Bounds::aabb ? 0 : 256 * triangles));
         }
     }
     held.clear();

@@ -30,6 +30,15 @@ std::vector<BuildOptions> all_options() {
     return all;
 }
 
+/// Every kind of oriented boxes, in one level and in two.
+std::vector<BuildOptions> oriented_options() {
+    std::vector<BuildOptions> all;
+    for (const Levels levels : {Levels::one, Levels::two})
+        for (const Bounds kind : all_bounds())
+            if (kind != Bounds::aabb) all.push_back({.levels = levels, .bounds = {.kind = kind}});
+    return all;
+}
+
 TreeImage build_image(const Scene& scene, const BuildOptions& options, BuildReport* report = nullptr) {
     return download(test_device(), build(test_device(), scene, options, report));
 }
@@ -38,6 +47,7 @@ bool same_trees(const TreeImage& a, const TreeImage& b) {
     return same_bits(a.binary_nodes, b.binary_nodes) && same_bits(a.triangles, b.triangles) &&
            same_bits(a.wide_nodes, b.wide_nodes) && same_bits(a.blocks, b.blocks) &&
            same_bits(a.binary_top, b.binary_top) && same_bits(a.wide_top, b.wide_top) &&
+           same_bits(a.oriented_nodes, b.oriented_nodes) && same_bits(a.oriented_top, b.oriented_top) &&
            same_bits(a.instances, b.instances) && same_bits(a.first_triangles, b.first_triangles) &&
            a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
 }
@@ -66,21 +76,36 @@ std::size_t outside_below(const std::vector<Node>& nodes, std::uint32_t root, co
     const Node& node = nodes[root];
     for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
         std::vector<glm::dvec3> below;
-        if (node.child[slot] & BOXWOOD_LEAF)
-            leaf_points(node.child[slot] & ~BOXWOOD_LEAF, below);
+        const std::uint32_t child = tree_check::reference_of(node, slot);
+        if (child & BOXWOOD_LEAF)
+            leaf_points(child & ~BOXWOOD_LEAF, below);
         else
-            wrong += outside_below(nodes, node.child[slot], leaf_points, outside, below);
-        for (const glm::dvec3& p : below) wrong += outside(tree_check::slot_box(node, slot), p) ? 1 : 0;
+            wrong += outside_below(nodes, child, leaf_points, outside, below);
+        for (const glm::dvec3& p : below) wrong += outside(node, slot, p) ? 1 : 0;
         points.insert(points.end(), below.begin(), below.end());
     }
     return wrong;
 }
 
-bool is_outside(const Aabb& box, const glm::dvec3& p) {
-    for (int k = 0; k < 3; ++k)
-        if (!(double(box.min[k]) <= p[k] && p[k] <= double(box.max[k]))) return true;
-    return false;
-}
+struct IsOutside {
+    template <class Node>
+    bool operator()(const Node& node, std::uint32_t slot, const glm::dvec3& p) const {
+        const Aabb box = tree_check::slot_box(node, slot);
+        for (int k = 0; k < 3; ++k)
+            if (!(double(box.min[k]) <= p[k] && p[k] <= double(box.max[k]))) return true;
+        return false;
+    }
+    bool operator()(const OrientedNode& node, std::uint32_t slot, const glm::dvec3& p) const {
+        if (node.child[slot] & BOXWOOD_ALIGNED) return operator()<OrientedNode>(node, slot, p);
+        const float* box = node.volume[slot];
+        const glm::dvec3 from_center = p - glm::dvec3(box[0], box[1], box[2]);
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(glm::dot(glm::dvec3(box[6 + k], box[9 + k], box[12 + k]), from_center)) <= box[3 + k]))
+                return true;
+        return false;
+    }
+};
+constexpr IsOutside is_outside;
 
 void add_points(const Mesh& mesh, std::uint32_t primitive, std::vector<glm::dvec3>& points) {
     for (int k = 0; k < 3; ++k) points.emplace_back(mesh.positions[mesh.triangles[primitive][k]]);
@@ -88,11 +113,11 @@ void add_points(const Mesh& mesh, std::uint32_t primitive, std::vector<glm::dvec
 
 std::size_t outside_bottom(const TreeImage& image, const Mesh& mesh, std::uint32_t root) {
     std::vector<glm::dvec3> all;
-    if (image.layout == Layout::binary)
-        return outside_below(
-            image.binary_nodes, root,
-            [&](std::uint32_t leaf, auto& points) { add_points(mesh, image.triangles[leaf].primitive, points); },
-            is_outside, all);
+    const auto add_leaf = [&](std::uint32_t leaf, auto& points) {
+        add_points(mesh, image.triangles[leaf].primitive, points);
+    };
+    if (image.bounds != Bounds::aabb) return outside_below(image.oriented_nodes, root, add_leaf, is_outside, all);
+    if (image.layout == Layout::binary) return outside_below(image.binary_nodes, root, add_leaf, is_outside, all);
     return outside_below(
         image.wide_nodes, root,
         [&](std::uint32_t leaf, auto& points) {
@@ -109,13 +134,15 @@ std::size_t outside_top(const TreeImage& image, const Scene& scene) {
         const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
         for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(p, 1.0));
     };
+    if (image.bounds != Bounds::aabb) return outside_below(image.oriented_top, 0, leaf_points, is_outside, all);
     return image.layout == Layout::binary ? outside_below(image.binary_top, 0, leaf_points, is_outside, all)
                                           : outside_below(image.wide_top, 0, leaf_points, is_outside, all);
 }
 
 void check_valid(const Scene& scene, const BuildOptions& options) {
     const TreeImage image = build_image(scene, options);
-    CHECK(image.layout == options.layout);
+    CHECK(image.bounds == options.bounds.kind);
+    if (options.layout != Layout::automatic) CHECK(image.layout == options.layout);
     CHECK(image.levels == options.levels);
     CHECK_NOTHROW(validate(image, scene, "built"));
     if (options.levels == Levels::one) {
@@ -154,6 +181,39 @@ TEST_CASE("build: valid trees whose boxes enclose everything, at every layout, l
     }
 }
 
+TEST_CASE("build: valid trees of every kind of oriented boxes, which enclose everything") {
+    for (const BuildOptions& options : oriented_options()) {
+        CAPTURE(name(options.bounds.kind));
+        CAPTURE(name(options.levels));
+        // 1: a root over one leaf; 300: several levels. Meshes of one triangle among others, and mirrored, sheared,
+        // flattened and distant instances, are in the placed scene.
+        for (const std::size_t count : {1u, 2u, 300u}) {
+            CAPTURE(count);
+            check_valid(scene_of({random_mesh(count, 1.0f, 0.3f, count)}), options);
+        }
+        check_valid(placed_scene(), options);
+        CHECK(build_image(Scene{}, options).bounds == options.bounds.kind);
+    }
+}
+
+TEST_CASE("build: the layout follows the volumes, and wide8 refuses oriented boxes") {
+    const Scene scene = scene_of({random_mesh(9, 1, 1, 1)});
+    CHECK(build_image(scene, {}).layout == Layout::wide8);
+    CHECK(build_image(scene, {.bounds = {.kind = Bounds::obb_points}}).layout == Layout::binary);
+    const BuildOptions wide{.layout = Layout::wide8, .bounds = {.kind = Bounds::obb_points}};
+    for (const Scene& each : {scene, Scene{}}) {
+        try {
+            build(test_device(), each, wide);
+            FAIL("did not throw");
+        } catch (const InputError& error) {
+            CHECK(error.where == "wide8");
+            CHECK(std::string(error.what()).find("obb-points") != std::string::npos);
+            CHECK(std::string(error.what()).find("binary") != std::string::npos);
+        }
+    }
+    CHECK(words(requirements(scene, wide)) == std::vector<std::string>{"oriented-boxes"});
+}
+
 TEST_CASE("build: meshes without an instance, and an instance that is not the identity") {
     Scene scene = scene_of({random_mesh(5, 1, 1, 1), random_mesh(900, 1, 1, 2), random_mesh(3, 1, 1, 3)});
     scene.instances.erase(scene.instances.begin() + 1);
@@ -177,8 +237,13 @@ TEST_CASE("build: automatic levels are two when a mesh is placed twice, else one
 
 TEST_CASE("build: the same bytes every time and at every tuning") {
     for (const Levels levels : {Levels::one, Levels::two}) {
-        for (const Layout layout : {Layout::binary, Layout::wide8}) {
-            const BuildOptions options{levels, layout, MortonBits::bits30};
+        for (const BuildOptions& volumes :
+             {BuildOptions{.layout = Layout::binary}, BuildOptions{.layout = Layout::wide8},
+              BuildOptions{.bounds = {.kind = Bounds::obb_points}},
+              BuildOptions{.bounds = {.kind = Bounds::obb_cascade}},
+              BuildOptions{.bounds = {.kind = Bounds::obb_refined}}}) {
+            BuildOptions options = volumes;
+            options.levels = levels;
             const TreeImage expected = build_image(placed_scene(), options);
             CHECK(same_trees(build_image(placed_scene(), options), expected));
             for (const Tuning& tuning : tunings()) {

@@ -99,49 +99,54 @@ glm::dvec3 pixel_direction(std::uint32_t x, std::uint32_t y) {
 TEST_CASE("render: every channel holds what its pixel's ray meets") {
     const Scene scene = two_squares(1.0f);
     for (const Levels levels : {Levels::one, Levels::two}) {
-        const Image image = picture(scene, all_aovs(), {levels, Layout::wide8, MortonBits::bits30});
-        CHECK(image.channels.size() == 3 + 1 + 3 + 1 + 1 + 2);
-        std::size_t seen[3] = {};
-        for (std::uint32_t i = 0; i < width * height; ++i) {
-            CAPTURE(i);
-            const Expected expected = intersect(scene, pixel_direction(i % width, i / width));
-            if (expected.near_edge) continue;
-            const std::uint32_t instance = plane<std::uint32_t>(image, "instance.id")[i];
-            REQUIRE(instance == expected.instance);
-            ++seen[std::min(instance, 2u)];
-            CHECK(plane<std::uint32_t>(image, "primitive.id")[i] == expected.primitive);
-            const glm::dvec3 normal(plane<float>(image, "normal.X")[i], plane<float>(image, "normal.Y")[i],
-                                    plane<float>(image, "normal.Z")[i]);
-            CHECK(glm::length(normal - expected.normal) < 1e-5);
-            const float depth = plane<float>(image, "depth.Z")[i];
-            if (instance == BOXWOOD_NONE) {
-                CHECK(depth == std::numeric_limits<float>::infinity());
-            } else {
-                CHECK(std::abs(depth - expected.t) < 1e-5 * expected.t);
-                CHECK(plane<std::uint32_t>(image, "cost.primitives")[i] >= 1);
+        for (const Bounds bounds : {Bounds::aabb, Bounds::obb_points}) {
+            const Image image = picture(scene, all_aovs(), {.levels = levels, .bounds = {.kind = bounds}});
+            CHECK(image.channels.size() == 3 + 1 + 3 + 1 + 1 + 2);
+            std::size_t seen[3] = {};
+            for (std::uint32_t i = 0; i < width * height; ++i) {
+                CAPTURE(i);
+                const Expected expected = intersect(scene, pixel_direction(i % width, i / width));
+                if (expected.near_edge) continue;
+                const std::uint32_t instance = plane<std::uint32_t>(image, "instance.id")[i];
+                REQUIRE(instance == expected.instance);
+                ++seen[std::min(instance, 2u)];
+                CHECK(plane<std::uint32_t>(image, "primitive.id")[i] == expected.primitive);
+                const glm::dvec3 normal(plane<float>(image, "normal.X")[i], plane<float>(image, "normal.Y")[i],
+                                        plane<float>(image, "normal.Z")[i]);
+                CHECK(glm::length(normal - expected.normal) < 1e-5);
+                const float depth = plane<float>(image, "depth.Z")[i];
+                if (instance == BOXWOOD_NONE) {
+                    CHECK(depth == std::numeric_limits<float>::infinity());
+                } else {
+                    CHECK(std::abs(depth - expected.t) < 1e-5 * expected.t);
+                    CHECK(plane<std::uint32_t>(image, "cost.primitives")[i] >= 1);
+                }
             }
+            // Enough of each kind to mean something.
+            for (const std::size_t count : seen) CHECK(count > 30);
         }
-        // Enough of each kind to mean something.
-        for (const std::size_t count : seen) CHECK(count > 30);
     }
 }
 
 TEST_CASE("render: costs are the statistics of the same rays") {
     Device& device = test_device();
     const Scene scene = two_squares(1.0f);
-    const Image image = picture(scene, {Aov::cost});
-    const Tree tree = build(device, scene);
-    Camera camera;
-    camera.vertical_fov = 1.2f;
-    const Buffer<Ray> rays = make_buffer<Ray>(device, width * height, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, width * height, "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, width * height, "statistics");
-    primary_rays(device, camera, width, height, rays);
-    closest_hit(device, tree, rays, hits, statistics);
-    const std::vector<RayStatistics> expected = download(device, statistics);
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        CHECK(plane<std::uint32_t>(image, "cost.volumes")[i] == expected[i].volumes);
-        CHECK(plane<std::uint32_t>(image, "cost.primitives")[i] == expected[i].primitives);
+    for (const Bounds bounds : {Bounds::aabb, Bounds::obb_moments}) {
+        const BuildOptions options{.bounds = {.kind = bounds}};
+        const Image image = picture(scene, {Aov::cost}, options);
+        const Tree tree = build(device, scene, options);
+        Camera camera;
+        camera.vertical_fov = 1.2f;
+        const Buffer<Ray> rays = make_buffer<Ray>(device, width * height, "rays");
+        const Buffer<Hit> hits = make_buffer<Hit>(device, width * height, "hits");
+        const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, width * height, "statistics");
+        primary_rays(device, camera, width, height, rays);
+        closest_hit(device, tree, rays, hits, statistics);
+        const std::vector<RayStatistics> expected = download(device, statistics);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            CHECK(plane<std::uint32_t>(image, "cost.volumes")[i] == expected[i].volumes);
+            CHECK(plane<std::uint32_t>(image, "cost.primitives")[i] == expected[i].primitives);
+        }
     }
 }
 

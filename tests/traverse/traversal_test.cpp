@@ -6,6 +6,7 @@
 
 #include "oracles/brute_force.hpp"
 #include "oracles/reference_builder.hpp"
+#include "oracles/reference_obb.hpp"
 #include "traverse/scenes.hpp"
 
 using namespace boxwood;
@@ -34,6 +35,19 @@ void check_all_queries(const Scene& scene, const std::vector<Ray>& rays, Shape s
             CHECK(disagreeing == 0);
         }
     }
+}
+
+/// The same nodes in the layout of oriented boxes.
+void align(std::vector<BinaryNode>& nodes, std::vector<OrientedNode>& oriented) {
+    for (const BinaryNode& node : nodes) {
+        OrientedNode& made = oriented.emplace_back();
+        for (int slot = 0; slot < 2; ++slot) {
+            std::copy_n(node.bounds[slot].min, 3, made.volume[slot]);
+            std::copy_n(node.bounds[slot].max, 3, made.volume[slot] + 3);
+            made.child[slot] = node.child[slot] | BOXWOOD_ALIGNED;
+        }
+    }
+    nodes.clear();
 }
 
 std::uint32_t scaled_down(std::uint32_t size) { return small_sizes() ? std::max(size / 50, 8u) : size; }
@@ -169,6 +183,36 @@ TEST_CASE("traversal: empty trees and no rays") {
         CHECK(trace(tree, {}).empty());
         CHECK(trace_any(tree, {}).empty());
     }
+}
+
+TEST_CASE("traversal: a tree of aligned volumes costs what the same binary tree costs") {
+    Random random(6);
+    const Scene scene = instanced_scene(random, 2, 8, 40);
+    const std::vector<Ray> rays = random_rays(random, scaled_down(1000), 2.0f);
+    for (const Levels levels : {Levels::one, Levels::two}) {
+        TreeImage tree = reference_tree(scene, Layout::binary, levels);
+        std::vector<RayStatistics> expected, found;
+        const std::vector<Hit> hits = trace(tree, rays, expected);
+        tree.bounds = Bounds::obb_points;
+        align(tree.binary_nodes, tree.oriented_nodes);
+        align(tree.binary_top, tree.oriented_top);
+        CHECK(count_different(trace(tree, rays, found), hits) == 0);
+        CHECK(same_bits(found, expected));
+    }
+    // One triangle in one oriented box: one volume, which the second ray does not enter.
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    TreeImage one = reference_tree(single(mesh), Layout::binary, Levels::one, Bounds::obb_points);
+    OrientedNode& node = one.oriented_nodes.at(0);
+    node.child[0] &= ~BOXWOOD_ALIGNED;
+    store_volume(box_around(random_rows(random, false), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), node.volume[0]);
+    std::vector<RayStatistics> statistics;
+    trace(one, {{{0.2f, 0.2f, -1}, 0, {0, 0, 1}, 2}, {{9, 9, -1}, 0, {0, 0, 1}, 2}}, statistics);
+    CHECK(statistics[0].volumes == 1);
+    CHECK(statistics[0].primitives == 1);
+    CHECK(statistics[1].volumes == 1);
+    CHECK(statistics[1].primitives == 0);
 }
 
 TEST_CASE("traversal: the same for every group size") {
