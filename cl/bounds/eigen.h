@@ -5,9 +5,12 @@
 #define BOXWOOD_BOUNDS_EIGEN_H
 #include "bounds/vector.h"
 
-// Converges quadratically: four sweeps take the entries off the diagonal of any float matrix below the rounding of those on
-// it, the fifth is for the worst found by search.
+// JACOBI_SWEEPS  Converges quadratically: four sweeps take the entries off the diagonal of any float matrix below the
+//                rounding of those on it, the fifth is for the worst found by search. Where only the size of a box depends
+//                on it three will do.
+#ifndef JACOBI_SWEEPS
 #define JACOBI_SWEEPS 5
+#endif
 
 /// Entries off the diagonal vanish quadratically. Beside the largest entry, which is 1, one below 2^-60 is far beyond the
 /// rounding of the matrix, and its products would be denormal, which is slow: it is taken for zero.

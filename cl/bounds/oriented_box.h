@@ -124,6 +124,26 @@ INLINE void add_box_along(const Vector* axis, const OrientedBox* box, real* low,
     widen(middle - padded, middle + padded, low, high);
 }
 
+/// The same with an AABB, which is exact: whichever of the two boxes around one set reaches less far counts.
+INLINE void add_boxes_along(const Vector* axis, const OrientedBox* box, const Vector* middle, const Vector* reach,
+                            real* low, real* high) {
+    real from = INFINITY, to = -INFINITY;
+    add_box_along(axis, box, &from, &to);
+    const real center = dot3(axis, middle), half_way = reach3(axis, reach);
+    const real padded = fma(16.0f * ROUNDOFF, reach3(axis, middle) + half_way, half_way);
+    widen(larger(from, center - padded), smaller(to, center + padded), low, high);
+}
+
+/// Takes in a set that lies in both an oriented box and an AABB (`own`, the space of the AABB's node).
+INLINE void add_boxes(const Frame* axes, const OrientedBox* box, const Space* own, const Space* space, Slabs* slabs) {
+    Vector middle, reach = own->reach;
+    to_space(space, &own->origin, &middle);
+    scale3(own->unit * space->inverse_unit, &reach);
+    add_boxes_along(&axes->a, box, &middle, &reach, &slabs->low.x, &slabs->high.x);
+    add_boxes_along(&axes->b, box, &middle, &reach, &slabs->low.y, &slabs->high.y);
+    add_boxes_along(&axes->c, box, &middle, &reach, &slabs->low.z, &slabs->high.z);
+}
+
 INLINE void add_box(const Frame* axes, const OrientedBox* box, Slabs* slabs) {
     add_box_along(&axes->a, box, &slabs->low.x, &slabs->high.x);
     add_box_along(&axes->b, box, &slabs->low.y, &slabs->high.y);

@@ -14,6 +14,8 @@
 // compile: MERGE=3 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=3 EXTENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=1 EXTENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
+// The sum of volumes with 3 is that with 5 to five digits, in two thirds of the time (bunny, dragon).
+#define JACOBI_SWEEPS 3
 #include "bounds/eigen.h"
 #include "bounds/rotation.h"
 #include "runtime/prefetch.h"
@@ -34,15 +36,14 @@ INLINE real second_share(const uint* first, const uint* second, global const uin
 
 /// The moments of the children's points, merged in the parent's space.
 INLINE void merge_children(global const Aabb* aabbs, const Space* space, const uint* first, const uint* second, real share,
-                           global const float* moments, Moments* merged) {
-    Space below;
+                           global const float* moments, Space* first_space, Space* second_space, Moments* merged) {
     Moments other;
     load_moments(moments, first, merged);
-    space_of(aabbs, first, &below);
-    change_space(&below, space, merged);
+    space_of(aabbs, first, first_space);
+    change_space(first_space, space, merged);
     load_moments(moments, second, &other);
-    space_of(aabbs, second, &below);
-    change_space(&below, space, &other);
+    space_of(aabbs, second, second_space);
+    change_space(second_space, space, &other);
     merge_moments(share, &other, merged);
 }
 
@@ -151,7 +152,9 @@ void merge_level(global const uint* level, uint level_first, uint level_count, u
         Frame axes;
 #if MERGE == 0
         Moments merged;
-        merge_children(aabbs, &space, first, second, second_share(first, second, far_ends, count), moments, &merged);
+        Space first_space, second_space;
+        merge_children(aabbs, &space, first, second, second_share(first, second, far_ends, count), moments,
+                       &first_space, &second_space, &merged);
         store_moments(&merged, moments, index, used);
         eigenvectors(&merged.covariance, &axes);
 #endif
@@ -178,8 +181,13 @@ void merge_level(global const uint* level, uint level_first, uint level_count, u
         blend_frames(&a.axes, &b.axes, &axes);
         orthonormalise(&axes);
 #endif
+#if MERGE == 0
+        add_boxes(&axes, &a, &first_space, &space, &slabs);
+        add_boxes(&axes, &b, &second_space, &space, &slabs);
+#else
         add_box(&axes, &a, &slabs);
         add_box(&axes, &b, &slabs);
+#endif
         const Vector inexact = {0.0f, 0.0f, 0.0f}; // the boxes below hold what theirs was
 #endif
         finish_boxes(&space, &axes, &slabs, &inexact, boxes, index, used);

@@ -17,6 +17,8 @@
 // compile: PASS=1 CHUNK=4096 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=1 FALLBACK=1
 // compile: PASS=0 CHUNK=4096 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: PASS=1 CHUNK=4096 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=0
+// The sum of volumes with 3 is that with 5 to five digits, in two thirds of the time (bunny, dragon).
+#define JACOBI_SWEEPS 3
 #include "bounds/eigen.h"
 #include "hierarchy/obb_node.h"
 
