@@ -111,16 +111,16 @@ INLINE void add_point(const Frame* axes, const Vector* p, Slabs* slabs) {
 }
 
 /// Takes in the 8 corners of an orthonormal box, center +- extent[k] axis[k]: along an axis they reach
-/// sum extent[k] |axis . axis[k]| to either side. What that lacks to the true box is below 16 units of roundoff of
-/// |axis| . |center| + sum extent[k]: 4 for each dot product and sum, 4 for the box's edges, which are the columns of the
-/// inverse of its axes and not exactly their rows (see orthonormalise).
+/// sum extent[k] |axis . axis[k]| to either side. What that lacks to the true box is below 32 roundoffs of
+/// |axis| . |center| + sum extent[k]: 4 for the dot products, 4 for the sums, 24 for the box's edges, which are the columns of
+/// the inverse of its axes and not exactly their rows (see orthonormalise).
 INLINE void add_box_along(const Vector* axis, const OrientedBox* box, real* low, real* high) {
     const real middle = dot3(axis, &box->center);
     const real a = fabs(dot3(axis, &box->axes.a)), b = fabs(dot3(axis, &box->axes.b)),
                c = fabs(dot3(axis, &box->axes.c));
     const real reach = fma(box->extent.x, a, fma(box->extent.y, b, box->extent.z * c));
     const real size = reach3(axis, &box->center) + box->extent.x + box->extent.y + box->extent.z;
-    const real padded = fma(16.0f * ROUNDOFF, size, reach);
+    const real padded = fma(32.0f * ROUNDOFF, size, reach);
     widen(middle - padded, middle + padded, low, high);
 }
 
@@ -160,7 +160,8 @@ INLINE real half_width(const Vector* axis, real low, real high, const Vector* re
                        const Vector* inexact) {
     const real middle = dot3(axis, center);
     const real size = reach3(axis, reach) + reach3(axis, center);
-    const real error = fma(8.0f * ROUNDOFF, size, reach3(axis, inexact));
+    // What is below 2^-149 in the space is lost to it.
+    const real error = fma(8.0f * ROUNDOFF, size, reach3(axis, inexact)) + 0x1p-146f;
     return fma(larger(high - middle, middle - low), (real)(1.0f + 2.0f * ROUNDOFF), error);
 }
 

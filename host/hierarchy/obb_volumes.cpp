@@ -10,7 +10,9 @@ namespace boxwood {
 namespace {
 
 /// Primitives that one work-item may take at a time; see cl/hierarchy/obb_ranges.cl.
-constexpr std::uint32_t chunk = 4096;
+constexpr std::uint32_t longest_range = 4096;
+/// Points from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the nodes.
+constexpr std::uint32_t refined_points = 768;
 /// Floats that a vector load may read behind the last point.
 constexpr std::uint32_t padding = 64;
 
@@ -74,10 +76,12 @@ void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool ex
     });
 }
 
-/// A pass over the points below every node: 0 for axes by covariance, 1 for boxes along the axes.
-void pass_over_ranges(Fit& fit, const char* pass, const char* label) {
+/// Axes of the nodes with up to `longest` primitives by the covariance of their points; of all when there are no longer ones.
+/// The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to five digits (bunny, dragon).
+void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32_t longest = 0) {
     Device& device = fit.device;
-    const Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}};
+    const std::uint32_t chunk = longest ? longest : longest_range;
+    const Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}, {"JACOBI_SWEEPS", longest ? "2" : "3"}};
     const auto kernel = [&](const char* name) { return kernel_of(fit, "hierarchy/obb_ranges.cl", name, extra); };
     const Buffer<std::uint32_t> chunks = make_scratch<std::uint32_t>(device, fit.count, "chunks of nodes");
     const Slices slices = cut(device, fit.count);
@@ -85,7 +89,7 @@ void pass_over_ranges(Fit& fit, const char* pass, const char* label) {
            fit.topology.far_ends, chunks, fit.count, slices.length);
     launch(device, kernel("short_nodes"), label, slices.slices, chunks, fit.topology.children, fit.topology.far_ends,
            fit.aabbs, fit.points, fit.stride, fit.errors, fit.boxes, fit.count, slices.length);
-    if (fit.count <= chunk) return;
+    if (longest || fit.count <= chunk) return;
     const Buffer<std::uint32_t> first_chunks = make_scratch<std::uint32_t>(device, fit.count, "first chunks");
     exclusive_scan<std::uint32_t>(device, chunks, Operator::sum, first_chunks);
     const std::uint32_t total =
@@ -96,6 +100,37 @@ void pass_over_ranges(Fit& fit, const char* pass, const char* label) {
            fit.stride, fit.boxes, parts, fit.count, total);
     launch(device, kernel("long_nodes"), label, slices.slices, chunks, first_chunks, fit.topology.children,
            fit.topology.far_ends, fit.aabbs, fit.errors, parts, fit.boxes, fit.count, slices.length);
+}
+
+/// Turns the axes of nodes with many points until the box around their extreme points is smallest.
+void refine_frames(Fit& fit, const NodeLevels& levels) {
+    Device& device = fit.device;
+    const auto kernel = [&](const char* name) {
+        KernelRef reference = kernel_of(fit, "hierarchy/obb_refine.cl", name,
+                                        {{"SMALLEST", std::to_string(refined_points / fit.points_per_primitive)}});
+        reference.defines["LANES"] = "1";
+        return reference;
+    };
+    const Buffer<std::uint32_t> refined = make_scratch<std::uint32_t>(device, fit.count, "refined nodes");
+    const Buffer<std::uint32_t> slots = make_scratch<std::uint32_t>(device, fit.count, "slots of refined nodes");
+    const Slices slices = cut(device, fit.count);
+    launch(device, kernel("refined_nodes"), "refined nodes", slices.slices, fit.topology.children,
+           fit.topology.far_ends, refined, fit.count, slices.length);
+    exclusive_scan<std::uint32_t>(device, refined, Operator::sum, slots);
+    const std::uint32_t total =
+        download_element(device, slots, fit.count - 1) + download_element(device, refined, fit.count - 1);
+    if (total == 0) return;
+    const Buffer<std::uint32_t> extremes =
+        make_scratch<std::uint32_t>(device, std::size_t{32} * total, "extreme points of nodes");
+    each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
+        const Slices part = cut(device, size);
+        launch(device, kernel("level_extremes"), "extreme points", part.slices, levels.nodes, first, size, part.length,
+               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, extremes,
+               fit.count);
+    });
+    launch(device, kernel("refine_frames"), "refined frames", slices.slices, fit.topology.children,
+           fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, extremes, fit.boxes, fit.count,
+           slices.length);
 }
 
 void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
@@ -117,7 +152,12 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
         merge_levels(fit, levels, "0", fit.options.extents == Extents::corners);
         if (fit.options.extents == Extents::exact) pass_over_ranges(fit, "1", "extents");
         break;
-    default:
+    case Bounds::obb_refined:
+        pass_over_ranges(fit, "0", "covariances", refined_points / fit.points_per_primitive - 1);
+        refine_frames(fit, levels);
+        pass_over_ranges(fit, "1", "extents");
+        break;
+    case Bounds::aabb:
         throw InputError("bounds", std::string(name(fit.options.kind)), "is not a kind of oriented box");
     }
 }
