@@ -108,6 +108,19 @@ TEST_CASE("quality: kinds and levels as asked for") {
           single["kinds"]["aabb"]["sah"]);
 }
 
+TEST_CASE("quality: on slender geometry off the axes oriented boxes halve the volumes that a bounce ray tests") {
+    const Tool tool;
+    for (const std::string kind : {"hair", "planks"}) { // at their default sizes; counts, so the same on every machine
+        CAPTURE(kind);
+        tool.succeed("scene " + kind + " -o slender.glb");
+        tool.succeed("quality slender.glb --bounds obb-points --resolution 96x96 --quiet --report q.json");
+        const Json kinds = Json::parse(tool.contents("q.json"))["kinds"];
+        const double aabb = kinds["aabb"]["volumes_per_ray"], oriented = kinds["obb-points"]["volumes_per_ray"];
+        CHECK(2.0 * oriented <= aabb);
+        CHECK(kinds["obb-points"]["end_point_overlap"] < kinds["aabb"]["end_point_overlap"]);
+    }
+}
+
 TEST_CASE("quality: an empty scene, and wrong usage") {
     const Tool tool;
     tool.write("empty.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
