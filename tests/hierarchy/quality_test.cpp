@@ -40,7 +40,7 @@ std::vector<Obb> random_boxes(const std::vector<Aabb>& volumes, bool sheared, bo
         const float angle = random.uniform(0.0f, 3.0f), c = std::cos(angle), s = std::sin(angle);
         if (!obb.aligned) {
             const float shear = sheared ? random.uniform(-1.0f, 1.0f) : 0.0f, size = sheared ? 1000.0f : 1.0f;
-            const float rows[9] = {size * c, size * s, shear, -s, c, 0.0f, 0.0f, 0.0f, 1.0f};
+            const float rows[9] = {size * c, size * s, size * shear, -s, c, 0.0f, 0.0f, 0.0f, 1.0f};
             std::copy(rows, rows + 9, obb.axes);
             obb.extent[0] *= size;
         }
