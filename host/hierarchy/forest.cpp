@@ -13,16 +13,6 @@ namespace boxwood {
 
 namespace {
 
-Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets) {
-    const std::size_t trees = offsets.size() - 1;
-    Buffer<Aabb> bounds = make_scratch<Aabb>(device, trees, "bounds of trees");
-    if (trees == 1)
-        reduce<Aabb>(device, boxes, Operator::sum, bounds);
-    else
-        segmented_reduce<Aabb>(device, boxes, offsets, Operator::sum, bounds);
-    return bounds;
-}
-
 template <class Key>
 Forest build_with_keys(Device& device, BufferView<const Aabb> boxes, Buffer<std::uint32_t> offsets, KeyFormat format,
                        const std::string& stage) {
@@ -52,6 +42,16 @@ Forest build_with_keys(Device& device, BufferView<const Aabb> boxes, Buffer<std:
 }
 
 } // namespace
+
+Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets) {
+    const std::size_t trees = offsets.size() - 1;
+    Buffer<Aabb> bounds = make_scratch<Aabb>(device, trees, "bounds of trees");
+    if (trees == 1)
+        reduce<Aabb>(device, boxes, Operator::sum, bounds);
+    else
+        segmented_reduce<Aabb>(device, boxes, offsets, Operator::sum, bounds);
+    return bounds;
+}
 
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
                     MortonBits morton, const std::string& stage) {

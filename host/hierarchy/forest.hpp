@@ -25,4 +25,7 @@ struct Forest {
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
                     MortonBits morton, const std::string& stage = "");
 
+/// The box of the primitives of each tree, one per range of `offsets`.
+Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets);
+
 } // namespace boxwood

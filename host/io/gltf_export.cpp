@@ -109,7 +109,7 @@ void append_meshes(std::string& text, const std::vector<Mesh>& meshes, Mode mode
 void append_accessors(std::string& text, const std::vector<Mesh>& meshes) {
     Array list(text, "accessors");
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const MeshBounds bounds = mesh_bounds(meshes[i]);
+        const MeshBounds bounds = mesh_bounds(meshes[i].positions);
         list.next() += "{\"bufferView\":" + std::to_string(2 * i) +
                        ",\"componentType\":5126,\"count\":" + std::to_string(meshes[i].positions.size()) +
                        ",\"type\":\"VEC3\",\"min\":";

@@ -52,7 +52,7 @@ private:
             Mesh mesh = load_mesh(document_, i, scene_.counts, warnings_);
             if (mesh.triangles.empty()) continue;
             places_[i] = static_cast<std::uint32_t>(scene_.meshes.size());
-            bounds_.push_back(mesh_bounds(mesh));
+            bounds_.push_back(mesh_bounds(mesh.positions));
             scene_.meshes.push_back(std::move(mesh));
         }
     }

@@ -18,11 +18,6 @@ std::string element(const char* array, std::size_t index) {
     return std::string(array) + "[" + std::to_string(index) + "]";
 }
 
-bool in_range(const glm::vec3& position) {
-    const glm::vec3 size = glm::abs(position); // a NaN fails every comparison below
-    return size.x <= largest_coordinate && size.y <= largest_coordinate && size.z <= largest_coordinate;
-}
-
 void validate_mesh(const Mesh& mesh, const std::string& file, const std::string& where) {
     if (mesh.triangles.empty()) throw InputError(file, where + ".triangles", "has no triangle");
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -44,10 +39,7 @@ void validate_instance(const Scene& scene, std::size_t index, const std::vector<
     if (instance.mesh >= scene.meshes.size()) {
         throw InputError(file, element("instances", index) + ".mesh", "names a mesh that does not exist");
     }
-    std::string_view fault = transform_fault(instance.transform);
-    if (fault.empty() && !stays_in_range(instance.transform, bounds[instance.mesh])) {
-        fault = "moves its mesh out of range";
-    }
+    const std::string_view fault = placement_fault(instance.transform, bounds[instance.mesh]);
     if (!fault.empty()) throw InputError(file, element("instances", index) + ".transform", std::string(fault));
 }
 
@@ -87,7 +79,7 @@ void validate(const Scene& scene, const std::string& file) {
     bounds.reserve(scene.meshes.size());
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         validate_mesh(scene.meshes[i], file, element("meshes", i));
-        bounds.push_back(mesh_bounds(scene.meshes[i]));
+        bounds.push_back(mesh_bounds(scene.meshes[i].positions));
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) validate_instance(scene, i, bounds, file);
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -116,10 +108,7 @@ Scene flatten(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         const auto base = static_cast<std::uint32_t>(merged.positions.size());
-        const glm::dmat4 exact(instance.transform);
-        for (const glm::vec3& position : mesh.positions) {
-            merged.positions.emplace_back(glm::dvec3(exact * glm::dvec4(position, 1.0)));
-        }
+        append_transformed(mesh.positions, instance.transform, merged.positions);
         for (const glm::uvec3& triangle : mesh.triangles) merged.triangles.push_back(triangle + base);
     }
     flat.meshes.push_back(std::move(merged));

@@ -33,9 +33,9 @@ bool is_singular(const glm::dmat3& linear) {
 
 } // namespace
 
-MeshBounds mesh_bounds(const Mesh& mesh) {
-    MeshBounds bounds{mesh.positions.front(), mesh.positions.front()};
-    for (const glm::vec3& position : mesh.positions) {
+MeshBounds mesh_bounds(const std::vector<glm::vec3>& positions) {
+    MeshBounds bounds{positions.front(), positions.front()};
+    for (const glm::vec3& position : positions) {
         bounds.min = glm::min(bounds.min, position);
         bounds.max = glm::max(bounds.max, position);
     }
@@ -64,6 +64,22 @@ bool stays_in_range(const glm::mat4& transform, const MeshBounds& bounds) {
         if (!(largest <= static_cast<double>(largest_coordinate))) return false;
     }
     return true;
+}
+
+std::string_view placement_fault(const glm::mat4& transform, const MeshBounds& bounds) {
+    const std::string_view fault = transform_fault(transform);
+    return fault.empty() && !stays_in_range(transform, bounds) ? "moves its mesh out of range" : fault;
+}
+
+bool in_range(const glm::vec3& position) {
+    const glm::vec3 size = glm::abs(position); // a NaN fails every comparison below
+    return size.x <= largest_coordinate && size.y <= largest_coordinate && size.z <= largest_coordinate;
+}
+
+void append_transformed(const std::vector<glm::vec3>& positions, const glm::mat4& transform,
+                        std::vector<glm::vec3>& target) {
+    const glm::dmat4 exact(transform);
+    for (const glm::vec3& position : positions) target.emplace_back(glm::dvec3(exact * glm::dvec4(position, 1.0)));
 }
 
 glm::mat4 look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
