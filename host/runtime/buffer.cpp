@@ -29,9 +29,9 @@ std::unique_ptr<Memory> allocate(Device& device, std::size_t count, std::size_t 
     return std::make_unique<Memory>(device.shared_state(), block.handle, block.bytes, pooled);
 }
 
-void write(Device& device, cl_mem target, const void* source, std::size_t bytes) {
+void write(Device& device, cl_mem target, const void* source, std::size_t bytes, std::size_t offset) {
     if (bytes == 0) return;
-    check(clEnqueueWriteBuffer(device.state().queue(), target, CL_TRUE, 0, bytes, source, 0, nullptr, nullptr),
+    check(clEnqueueWriteBuffer(device.state().queue(), target, CL_TRUE, offset, bytes, source, 0, nullptr, nullptr),
           "clEnqueueWriteBuffer");
 }
 

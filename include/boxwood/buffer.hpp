@@ -36,7 +36,7 @@ private:
 
 std::unique_ptr<Memory> allocate(Device& device, std::size_t count, std::size_t element_bytes, const char* label,
                                  bool pooled);
-void write(Device& device, cl_mem target, const void* source, std::size_t bytes);
+void write(Device& device, cl_mem target, const void* source, std::size_t bytes, std::size_t offset = 0);
 void read(Device& device, cl_mem source, std::size_t offset, void* target, std::size_t bytes);
 void copy(Device& device, cl_mem source, cl_mem target, std::size_t bytes);
 void fill(Device& device, cl_mem target, const void* pattern, std::size_t pattern_bytes, std::size_t bytes);
@@ -105,10 +105,10 @@ Buffer<T> upload(Device& device, const std::vector<T>& source, const char* label
     return buffer;
 }
 
-/// Copies `source` over the first elements of `target`, which has at least as many.
+/// Copies `source` over the elements of `target` from `first` on, which are at least as many.
 template <class T>
-void write(Device& device, std::span<const T> source, BufferView<T> target) {
-    detail::write(device, target.handle(), source.data(), source.size_bytes());
+void write(Device& device, std::span<const T> source, BufferView<T> target, std::size_t first = 0) {
+    detail::write(device, target.handle(), source.data(), source.size_bytes(), first * sizeof(T));
 }
 
 /// Waits for the work enqueued and returns the elements.

@@ -48,6 +48,10 @@ TEST_CASE("buffer: what is written is read, copied and filled") {
     write<std::uint32_t>(device, std::vector<std::uint32_t>{1, 2, 3}, target.view());
     CHECK(target.values()[2] == 3);
     CHECK(target.values()[3] == values[3]);
+    write<std::uint32_t>(device, std::vector<std::uint32_t>{4, 5}, target.view(), 999);
+    CHECK(target.values()[998] == values[998]);
+    CHECK(target.values()[999] == 4);
+    CHECK(target.values()[1000] == 5);
     fill<std::uint32_t>(device, target.view().prefix(500), 9);
     CHECK(target.values()[499] == 9);
     CHECK(target.values()[500] == values[500]);
