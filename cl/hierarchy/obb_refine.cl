@@ -18,7 +18,7 @@
 #define DIRECTIONS 16
 #define EXTREMES (2 * DIRECTIONS)
 // Turns about each of the three axes.
-#define ROUNDS 1
+#define ROUNDS 2
 
 // The axes of a cube through its faces, edges and corners, and three more to fill two vectors; no direction is farther than
 // 23 degrees from one of them or its opposite. Their lengths do not matter.
@@ -76,18 +76,20 @@ void refined_nodes(global const uint2* children, global const uint* far_ends, gl
         refined[i] = children[i].x != BOXWOOD_NONE && range_size(i, far_ends) >= SMALLEST ? 1 : 0;
 }
 
-/// extremes: EXTREMES points for each refined node of one level, at its slot (the exclusive scan of `refined`).
+/// extremes: EXTREMES points for each refined node of one level, at its slot (the exclusive scan of `refined`); slot_nodes: the
+/// node of each slot.
 /// Before: those of lower levels are done.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void level_extremes(global const uint* level, uint first, uint level_count, uint slice, global const uint2* children,
                     global const uint* far_ends, global const Aabb* aabbs, global const float* points, uint stride,
-                    global const uint* slots, global uint* extremes, uint count) {
+                    global const uint* slots, global uint* slot_nodes, global uint* extremes, uint count) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = begin < level_count ? min(begin + slice, level_count) : begin;
     const Nodes nodes = {aabbs, points, stride, 0, count};
     for (uint i = begin; i < end; ++i) {
         const uint node = level[first + i];
         if (range_size(node, far_ends) < SMALLEST) continue;
+        slot_nodes[slots[node]] = node;
         Space space;
         space_of(aabbs, &node, &space);
         Ends ends = {(float16)(INFINITY), (float16)(-INFINITY), (uint16)(0), (uint16)(0)};
@@ -192,30 +194,29 @@ static void refine(const Vector* points, const float8* steps, Frame* axes) {
     orthonormalise(axes);
 }
 
-/// The axes of the refined nodes of one slice of node indices.
+/// The axes of the nodes of one slice of slots.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void refine_frames(global const uint2* children, global const uint* far_ends, global const Aabb* aabbs,
-                   global const float* points, uint stride, global const uint* slots, global const uint* extremes,
-                   global Obb* boxes, uint count, uint slice) {
+void refine_frames(global const uint* slot_nodes, global const Aabb* aabbs, global const float* points, uint stride,
+                   global const uint* extremes, global Obb* boxes, uint count, uint slot_count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
-    const uint end = begin < count ? min(begin + slice, count) : begin;
+    const uint end = begin < slot_count ? min(begin + slice, slot_count) : begin;
     const Nodes nodes = {aabbs, points, stride, 0, count};
     // In half turns: steps of a sixteenth of a quarter turn's half about 0, then of an eighth of that, to both sides.
     const float8 coarse = (float8)(-4, -3, -2, -1, 0, 1, 2, 3) / 16.0f, fine = (float8)(-4, -3, -2, -1, 1, 2, 3, 4) / 128.0f;
     const float8 steps[4] = {cospi(coarse), sinpi(coarse), cospi(fine), sinpi(fine)};
     for (uint i = begin; i < end; ++i) {
-        if (children[i].x == BOXWOOD_NONE || range_size(i, far_ends) < SMALLEST) continue;
+        const uint node = slot_nodes[i];
         Space space;
-        space_of(aabbs, &i, &space);
+        space_of(aabbs, &node, &space);
         Vector extreme[EXTREMES];
         for (uint k = 0; k < EXTREMES; ++k)
-            load_space_point(&nodes, &space, extremes[EXTREMES * (size_t)slots[i] + k], &extreme[k]);
+            load_space_point(&nodes, &space, extremes[EXTREMES * (size_t)i + k], &extreme[k]);
         Frame axes, straight;
         covariance_axes(extreme, &axes);
         identity_frame(&straight);
         refine(extreme, steps, &axes);
         refine(extreme, steps, &straight);
         if (box_measure(extreme, &straight) < box_measure(extreme, &axes)) axes = straight;
-        store_frame(&axes, boxes, &i, 1);
+        store_frame(&axes, boxes, &node, 1);
     }
 }

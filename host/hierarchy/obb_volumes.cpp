@@ -122,15 +122,16 @@ void refine_frames(Fit& fit, const NodeLevels& levels) {
     if (total == 0) return;
     const Buffer<std::uint32_t> extremes =
         make_scratch<std::uint32_t>(device, std::size_t{32} * total, "extreme points of nodes");
+    const Buffer<std::uint32_t> slot_nodes = make_scratch<std::uint32_t>(device, total, "nodes of slots");
     each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
         const Slices part = cut(device, size);
         launch(device, kernel("level_extremes"), "extreme points", part.slices, levels.nodes, first, size, part.length,
-               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, extremes,
-               fit.count);
+               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, slot_nodes,
+               extremes, fit.count);
     });
-    launch(device, kernel("refine_frames"), "refined frames", slices.slices, fit.topology.children,
-           fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, extremes, fit.boxes, fit.count,
-           slices.length);
+    // Few nodes and much work for each: one per work-item.
+    launch(device, kernel("refine_frames"), "refined frames", total, slot_nodes, fit.aabbs, fit.points, fit.stride,
+           extremes, fit.boxes, fit.count, total, 1u);
 }
 
 void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
