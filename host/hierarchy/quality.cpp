@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "boxwood/reduce.hpp"
 #include "boxwood/segmented_reduce.hpp"

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "boxwood/collapse.hpp"
 #include "hierarchy/forest_scene.hpp"
