@@ -23,12 +23,11 @@ NodeLevels node_levels(Device& device, const Topology& topology) {
     const std::uint32_t height = download(device, greatest)[0];
 
     NodeLevels levels{make_scratch<std::uint32_t>(device, count, "nodes by height"), {}};
-    launch(device, {"hierarchy/levels.cl", "number"}, "numbers", slices.slices, levels.nodes, count,
-           slices.length);
+    launch(device, {"hierarchy/levels.cl", "number"}, "numbers", slices.slices, levels.nodes, count, slices.length);
     radix_sort<std::uint32_t>(device, heights, levels.nodes, 0, static_cast<int>(std::bit_width(height)));
     const Buffer<std::uint32_t> starts = make_scratch<std::uint32_t>(device, height + 2, "starts of levels");
-    launch(device, {"hierarchy/levels.cl", "level_starts"}, "starts of levels", slices.slices, heights, starts,
-           count, slices.length);
+    launch(device, {"hierarchy/levels.cl", "level_starts"}, "starts of levels", slices.slices, heights, starts, count,
+           slices.length);
     levels.starts = download(device, starts);
     levels.starts[0] = 0;
     levels.starts[height + 1] = count;

@@ -10,8 +10,9 @@ namespace boxwood {
 
 /// The inner nodes of a forest by height: height 1 is above leaves alone, and a node comes after both of its children.
 struct NodeLevels {
-    Buffer<std::uint32_t> nodes;       ///< Ascending by height, then by index; unused slots come first.
-    std::vector<std::uint32_t> starts; ///< starts[h] .. starts[h + 1] - 1 are the nodes of height h, 1 <= h <= height().
+    Buffer<std::uint32_t> nodes; ///< Ascending by height, then by index; unused slots come first.
+    std::vector<std::uint32_t>
+        starts; ///< starts[h] .. starts[h + 1] - 1 are the nodes of height h, 1 <= h <= height().
 
     std::uint32_t height() const { return static_cast<std::uint32_t>(starts.size()) - 2; }
 };

@@ -88,8 +88,7 @@ double aabb_volume(const std::vector<Aabb>& boxes) {
 
 std::vector<Obb> boxes_of(const BuiltForest& built, const BoundsOptions& options) {
     Device& device = test_device();
-    return download(
-        device, obb_volumes(device, built.forest.topology, built.forest.volumes, built.geometry, options));
+    return download(device, obb_volumes(device, built.forest.topology, built.forest.volumes, built.geometry, options));
 }
 
 /// Orthonormal to rounding and right-handed, extents finite and not negative, and no larger than the AABB it replaced.
@@ -98,8 +97,8 @@ std::size_t count_malformed(const BuiltForest& built, const std::vector<Obb>& bo
     for (std::uint32_t node = 0; node < boxes.size(); ++node) {
         const Obb& box = boxes[node];
         if (box.extent[0] < 0.0f) continue; // unused
-        const glm::dmat3 rows(box.axes[0], box.axes[1], box.axes[2], box.axes[3], box.axes[4], box.axes[5],
-                              box.axes[6], box.axes[7], box.axes[8]);
+        const glm::dmat3 rows(box.axes[0], box.axes[1], box.axes[2], box.axes[3], box.axes[4], box.axes[5], box.axes[6],
+                              box.axes[7], box.axes[8]);
         const glm::dmat3 product = glm::transpose(rows) * rows;
         bool good = glm::determinant(rows) > 0.99;
         for (int i = 0; i < 3; ++i)
@@ -171,35 +170,29 @@ std::vector<Extreme> extremes() {
     list.push_back({"one point", placed(300, 2, [](Random&) { return glm::vec3(3, -5, 7); })});
     list.push_back({"one point at the origin", placed(10, 2, [](Random&) { return glm::vec3(0); })});
     list.push_back({"collinear", placed(300, 3, [&](Random& r) { return r.uniform(-1, 1) * along; })});
-    list.push_back({"coplanar", placed(300, 4, [&](Random& r) {
-                        return r.uniform(-1, 1) * along + r.uniform(-1, 1) * across;
-                    })});
-    list.push_back({"needles 1e6:1", placed(300, 5, [&](Random& r) {
-                        return r.uniform(-1, 1) * along + 1e-6f * in_cube(r);
-                    })});
+    list.push_back(
+        {"coplanar", placed(300, 4, [&](Random& r) { return r.uniform(-1, 1) * along + r.uniform(-1, 1) * across; })});
+    list.push_back(
+        {"needles 1e6:1", placed(300, 5, [&](Random& r) { return r.uniform(-1, 1) * along + 1e-6f * in_cube(r); })});
     list.push_back({"1e-30", placed(300, 6, [](Random& r) { return 1e-30f * in_cube(r); })});
     list.push_back({"1e18", placed(300, 7, [](Random& r) { return 1e18f * in_cube(r); })});
-    list.push_back({"features of 1e-3 at 1e7", placed(300, 8, [](Random& r) {
-                        return glm::vec3(1e7f, -1e7f, 1e7f) + 1e-3f * in_cube(r);
-                    })});
-    list.push_back({"features of 1e-3 at 1e3", placed(300, 8, [](Random& r) {
-                        return glm::vec3(1e3f, -1e3f, 1e3f) + 1e-3f * in_cube(r);
-                    })});
+    list.push_back({"features of 1e-3 at 1e7",
+                    placed(300, 8, [](Random& r) { return glm::vec3(1e7f, -1e7f, 1e7f) + 1e-3f * in_cube(r); })});
+    list.push_back({"features of 1e-3 at 1e3",
+                    placed(300, 8, [](Random& r) { return glm::vec3(1e3f, -1e3f, 1e3f) + 1e-3f * in_cube(r); })});
     list.push_back({"denormals", placed(300, 9, [](Random& r) { return 1e-41f * in_cube(r); })});
     list.push_back({"sizes from 1e-38 to 1e18", placed(300, 10, [](Random& r) {
                         return std::ldexp(1.0f, static_cast<int>(r.below(186)) - 126) * in_cube(r);
                     })});
-    list.push_back({"equal Morton codes", placed(many, 11, [](Random& r) {
-                        return glm::vec3(1.0f) + 1e-6f * in_cube(r);
-                    })});
+    list.push_back(
+        {"equal Morton codes", placed(many, 11, [](Random& r) { return glm::vec3(1.0f) + 1e-6f * in_cube(r); })});
     list.back().mesh.triangles.push_back({0, 1, 2});
     list.back().mesh.positions.push_back({-1e3f, -1e3f, -1e3f});
     list.back().mesh.triangles.back().z = static_cast<std::uint32_t>(list.back().mesh.positions.size() - 1);
     list.push_back({"turned cube", turned_cube(1)});
     list.push_back({"turned cube, 16 x 16", turned_cube(16)});
-    list.push_back({"covariance diag(2000, 1, 0)", placed(300, 12, [](Random& r) {
-                        return glm::vec3(44.7f, 1.0f, 0.0f) * in_cube(r);
-                    })});
+    list.push_back({"covariance diag(2000, 1, 0)",
+                    placed(300, 12, [](Random& r) { return glm::vec3(44.7f, 1.0f, 0.0f) * in_cube(r); })});
     return list;
 }
 
