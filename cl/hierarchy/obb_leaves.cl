@@ -43,15 +43,14 @@ INLINE void triangle_frame(const Vector* p, const Vector* q, const Vector* r, Fr
     identity_frame(&identity);
     choose3(largest3(&longest) == 0.0f, &identity.a, &longest);
     normalise3(&longest);
-    // Where the edges are parallel, any direction but the first will do: the axis that is farthest from it.
+    // Where the edges are parallel to rounding, any normal to the first will do: by way of the axis farthest from it.
     Vector normal, spare = identity.a;
     cross3(&longest, &other, &normal);
     choose3(fabs(longest.y) < fabs(longest.x), &identity.b, &spare);
     choose3((fabs(longest.z) < fabs(longest.x)) & (fabs(longest.z) < fabs(longest.y)), &identity.c, &spare);
     Vector across;
     cross3(&longest, &spare, &across);
-    const real size = largest3(&normal);
-    choose3(size == 0.0f, &across, &normal);
+    choose3(largest3(&normal) <= 8.0f * ROUNDOFF * largest3(&other), &across, &normal);
     scale3(inverse_power(power_below(largest3(&normal))), &normal);
     normalise3(&normal);
     frame->a = longest;
