@@ -55,6 +55,15 @@ std::string_view transform_fault(const glm::mat4& transform) {
 
 bool stays_in_range(const glm::mat4& transform, const MeshBounds& bounds) {
     const glm::dmat4 exact(transform);
+    // Nearly always a bound on all corners at once is enough; half the range leaves room for rounding.
+    const glm::dvec3 reach(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
+    bool surely = true;
+    for (int row = 0; row < 3; ++row) {
+        const double farthest = std::abs(exact[0][row]) * reach.x + std::abs(exact[1][row]) * reach.y +
+                                std::abs(exact[2][row]) * reach.z + std::abs(exact[3][row]);
+        surely = surely && farthest <= 0.5 * static_cast<double>(largest_coordinate);
+    }
+    if (surely) return true;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 position((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
                                   (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
