@@ -43,15 +43,6 @@ TreeImage build_image(const Scene& scene, const BuildOptions& options, BuildRepo
     return download(test_device(), build(test_device(), scene, options, report));
 }
 
-bool same_trees(const TreeImage& a, const TreeImage& b) {
-    return same_bits(a.binary_nodes, b.binary_nodes) && same_bits(a.triangles, b.triangles) &&
-           same_bits(a.wide_nodes, b.wide_nodes) && same_bits(a.blocks, b.blocks) &&
-           same_bits(a.binary_top, b.binary_top) && same_bits(a.wide_top, b.wide_top) &&
-           same_bits(a.oriented_nodes, b.oriented_nodes) && same_bits(a.oriented_top, b.oriented_top) &&
-           same_bits(a.instances, b.instances) && same_bits(a.first_triangles, b.first_triangles) &&
-           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
-}
-
 /// Three meshes placed eight times: mirrored, uneven, sheared, flattened, far from the origin.
 Scene placed_scene() {
     Scene scene =

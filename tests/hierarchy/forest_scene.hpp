@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Forests over small meshes, on the device and on the host, for the tests of layouts.
+// Forests over small meshes, on the device and on the host, for the tests of layouts and of whole trees.
 #pragma once
 
 #include <vector>
 
 #include "boxwood/geometry.hpp"
 #include "boxwood/scene.hpp"
+#include "boxwood/tree_image.hpp"
 #include "hierarchy/forest.hpp"
 #include "oracles/tree_checker.hpp"
 #include "support.hpp"
@@ -39,6 +40,16 @@ inline Aabb box_of(const Mesh& mesh, const glm::uvec3& triangle) {
     const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
     const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+}
+
+/// The same bytes in both.
+inline bool same_trees(const TreeImage& a, const TreeImage& b) {
+    return same_bits(a.binary_nodes, b.binary_nodes) && same_bits(a.triangles, b.triangles) &&
+           same_bits(a.wide_nodes, b.wide_nodes) && same_bits(a.blocks, b.blocks) &&
+           same_bits(a.binary_top, b.binary_top) && same_bits(a.wide_top, b.wide_top) &&
+           same_bits(a.oriented_nodes, b.oriented_nodes) && same_bits(a.oriented_top, b.oriented_top) &&
+           same_bits(a.instances, b.instances) && same_bits(a.first_triangles, b.first_triangles) &&
+           a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
 }
 
 /// A tree per mesh of a scene.
