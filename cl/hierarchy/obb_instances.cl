@@ -3,11 +3,12 @@
 // (dissertation 3.1.4 and 3.6.2). While the nodes above are fitted, a leaf is its 8 corners, and an orthonormal box
 // around them; at the end it becomes the parallelepiped itself.
 //
+// MOMENTS  as in obb_leaves.cl
 // POINTS_PER_PRIMITIVE  8
 // LANES  1
 // MEASURE_AREA, FALLBACK  see bounds/oriented_box.h
-// compile: POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
-// compile: POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
+// compile: MOMENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
+// compile: MOMENTS=0 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/rotation.h"
 #include "hierarchy/obb_node.h"
 #include "shared/instance.h"
@@ -91,12 +92,13 @@ INLINE void placed_frame(global const InstanceRecord* record, global const Obb* 
     orthonormalise(axes);
 }
 
-/// The corners of the instance at sorted position i, their error, and the box around them along its axes.
+/// The corners of the instance at sorted position i, their error, the box around them along its axes, and with MOMENTS their
+/// moments.
 /// Before: aabbs of all nodes.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void instance_leaves(global const uint* order, global const InstanceRecord* instances, global const Obb* mesh_boxes,
                      global const Aabb* aabbs, global float* points, uint stride, global float* errors,
-                     global Obb* boxes, uint count) {
+                     global float* moments, global Obb* boxes, uint count) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const InstanceRecord* record = &instances[order[i]];
@@ -111,18 +113,24 @@ void instance_leaves(global const uint* order, global const InstanceRecord* inst
     Space space;
     Frame axes;
     Slabs slabs;
+    Vector inside[8];
     space_of(aabbs, &leaf, &space);
     placed_frame(record, box, &axes);
     empty_slabs(&slabs);
     for (uint corner = 0; corner < 8; ++corner) {
-        Vector p = placed.center, inside;
+        Vector p = placed.center;
         for (int k = 0; k < 3; ++k) add_scaled3((corner >> k & 1) != 0 ? 1.0f : -1.0f, &placed.edges[k], &p);
         points[8 * (size_t)i + corner] = p.x;
         points[stride + 8 * (size_t)i + corner] = p.y;
         points[2 * (size_t)stride + 8 * (size_t)i + corner] = p.z;
-        to_space(&space, &p, &inside);
-        add_point(&axes, &inside, &slabs);
+        to_space(&space, &p, &inside[corner]);
+        add_point(&axes, &inside[corner], &slabs);
     }
+#if MOMENTS
+    Moments found;
+    primitive_moments(inside, &found);
+    store_moments(&found, moments, &leaf, 1);
+#endif
     Vector inexact = placed.error;
     scale3(space.inverse_unit, &inexact);
     finish_boxes(&space, &axes, &slabs, &inexact, boxes, &leaf, 1);

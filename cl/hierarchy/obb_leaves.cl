@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes, first part: the points of the primitives in sorted order, and the boxes and moments of the leaves.
+// Oriented boxes, first part: the leaves of trees over triangles (those over instances: obb_instances.cl).
 //
-// POINTS_PER_PRIMITIVE  see hierarchy/obb_node.h
+// SORTED_POINTS         1: the vertices are written in sorted order, x, y and z apart, for kinds that pass over them
+// MOMENTS               1: the moments of the vertices are written
+// POINTS_PER_PRIMITIVE  3, see hierarchy/obb_node.h
 // LANES, MEASURE_AREA, FALLBACK  see bounds/real.h and bounds/oriented_box.h
-// compile: POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
-// compile: POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=1 FALLBACK=0
-// compile: POINTS_PER_PRIMITIVE=8 LANES=8 MEASURE_AREA=0 FALLBACK=1
-// compile: POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
+// compile: SORTED_POINTS=1 MOMENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
+// compile: SORTED_POINTS=0 MOMENTS=0 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "hierarchy/obb_node.h"
-
-#if POINTS_PER_PRIMITIVE == 3
-
-/// points: the vertices of the triangles at the sorted positions of one slice, x, y and z apart.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void sorted_points(global const uint* order, global const float* positions, global const uint* triangles,
-                   global float* points, uint stride, uint count, uint slice) {
-    const uint begin = (uint)get_global_id(0) * slice;
-    if (begin >= count) return;
-    const uint end = min(begin + slice, count);
-    for (uint i = begin; i < end; ++i) {
-        for (uint k = 0; k < 3; ++k) {
-            global const float* vertex = positions + 3 * (size_t)triangles[3 * (size_t)order[i] + k];
-            for (uint axis = 0; axis < 3; ++axis) points[axis * (size_t)stride + 3 * (size_t)i + k] = vertex[axis];
-        }
-    }
-}
 
 /// The smallest rectangle around a triangle has a side on its longest edge, and the box around that is flat.
 INLINE void triangle_frame(const Vector* p, const Vector* q, const Vector* r, Frame* frame) {
@@ -58,65 +41,56 @@ INLINE void triangle_frame(const Vector* p, const Vector* q, const Vector* r, Fr
     orthonormalise(frame);
 }
 
-/// The boxes of the leaves at the sorted positions of one slice.
+/// Vertex k of the triangle at sorted position i.
+INLINE global const float* vertex_of(global const float* positions, global const uint* triangles, uint triangle, uint k) {
+    return positions + 3 * (size_t)triangles[3 * (size_t)triangle + k];
+}
+
+/// The leaves at the sorted positions of one slice: their boxes, what SORTED_POINTS and MOMENTS ask for beside them.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void triangle_leaves(global const Aabb* aabbs, global const float* coordinates, uint stride, global Obb* boxes,
-                     uint count, uint slice) {
+void triangle_leaves(global const uint* order, global const float* positions, global const uint* triangles,
+                     global const Aabb* aabbs, global float* points, uint stride, global float* moments,
+                     global Obb* boxes, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
-    const Nodes nodes = {aabbs, coordinates, stride, 0, count};
     for (uint first = begin; first < end; first += LANES) {
         uint leaf[LANES];
-        for (uint lane = 0; lane < LANES; ++lane) leaf[lane] = count + min(first + lane, end - 1);
+        float corner[9][LANES];
+        const uint used = min((uint)LANES, end - first);
+        for (uint lane = 0; lane < LANES; ++lane) {
+            const uint position = min(first + lane, end - 1);
+            leaf[lane] = count + position;
+            for (uint k = 0; k < 3; ++k) {
+                global const float* vertex = vertex_of(positions, triangles, order[position], k);
+                for (uint axis = 0; axis < 3; ++axis) corner[3 * k + axis][lane] = vertex[axis];
+            }
+        }
+#if SORTED_POINTS
+        for (uint axis = 0; axis < 3; ++axis)
+            for (uint lane = 0; lane < used; ++lane)
+                for (uint k = 0; k < 3; ++k)
+                    points[axis * (size_t)stride + 3 * (size_t)(first + lane) + k] = corner[3 * k + axis][lane];
+#endif
         Space space;
-        Vector points[POINTS_PER_PRIMITIVE];
+        Vector p[3];
         space_of(aabbs, leaf, &space);
-        load_primitives(&nodes, first, &space, points);
+        for (uint k = 0; k < 3; ++k) {
+            const Vector world = {LOAD_LANES(corner[3 * k]), LOAD_LANES(corner[3 * k + 1]),
+                                  LOAD_LANES(corner[3 * k + 2])};
+            to_space(&space, &world, &p[k]);
+        }
+#if MOMENTS
+        Moments found;
+        primitive_moments(p, &found);
+        store_moments(&found, moments, leaf, used);
+#endif
         Frame axes;
-        triangle_frame(&points[0], &points[1], &points[2], &axes);
+        triangle_frame(&p[0], &p[1], &p[2], &axes);
         Slabs slabs;
         empty_slabs(&slabs);
-        for (int k = 0; k < 3; ++k) add_point(&axes, &points[k], &slabs);
+        for (int k = 0; k < 3; ++k) add_point(&axes, &p[k], &slabs);
         const Vector exact = {0.0f, 0.0f, 0.0f};
-        finish_boxes(&space, &axes, &slabs, &exact, boxes, leaf, min((uint)LANES, end - first));
+        finish_boxes(&space, &axes, &slabs, &exact, boxes, leaf, used);
     }
-}
-
-#endif
-
-/// moments of the leaves at the sorted positions of one slice.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void leaf_moments(global const Aabb* aabbs, global const float* coordinates, uint stride, global float* moments,
-                  uint count, uint slice) {
-    const uint begin = (uint)get_global_id(0) * slice;
-    if (begin >= count) return;
-    const uint end = min(begin + slice, count);
-    const Nodes nodes = {aabbs, coordinates, stride, 0, count};
-    for (uint first = begin; first < end; first += LANES) {
-        uint leaf[LANES];
-        for (uint lane = 0; lane < LANES; ++lane) leaf[lane] = count + min(first + lane, end - 1);
-        Space space;
-        Vector points[POINTS_PER_PRIMITIVE];
-        space_of(aabbs, leaf, &space);
-        load_primitives(&nodes, first, &space, points);
-        Moments found;
-        primitive_moments(points, &found);
-        store_moments(&found, moments, leaf, min((uint)LANES, end - first));
-    }
-}
-
-/// The unused slot at the end of each tree gets the empty box.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void empty_boxes(global const uint* offsets, global Obb* boxes, uint trees) {
-    const uint tree = (uint)get_global_id(0);
-    if (tree >= trees) return;
-    Obb empty;
-    for (int k = 0; k < 3; ++k) {
-        empty.center[k] = 0.0f;
-        empty.extent[k] = -INFINITY;
-    }
-    for (int k = 0; k < 9; ++k) empty.axes[k] = k % 4 == 0 ? 1.0f : 0.0f;
-    empty.aligned = 1;
-    boxes[offsets[tree + 1] - 1] = empty;
 }

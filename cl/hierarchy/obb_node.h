@@ -35,38 +35,7 @@ INLINE void inexact_of(const Nodes* nodes, const uint* index, const Space* space
 #endif
 }
 
-/// One coordinate of the points of LANES primitives from sorted position `first` on: v[k] are the k-th points. Reads behind
-/// the last primitive, where the array has room for it.
-INLINE void load_coordinates(global const float* base, uint first, real* v) {
-    global const float* source = base + POINTS_PER_PRIMITIVE * (size_t)first;
-#if LANES == 1
-    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) v[k] = source[k];
-#elif POINTS_PER_PRIMITIVE == 8
-#define LOAD(lane) v[lane] = vload8(lane, source)
-    EACH_LANE(LOAD);
-#undef LOAD
-    transpose(v);
-#else
-    const float8 a = vload8(0, source), b = vload8(1, source), c = vload8(2, source);
-    v[0] = (float8)(a.s0, a.s3, a.s6, b.s1, b.s4, b.s7, c.s2, c.s5);
-    v[1] = (float8)(a.s1, a.s4, a.s7, b.s2, b.s5, c.s0, c.s3, c.s6);
-    v[2] = (float8)(a.s2, a.s5, b.s0, b.s3, b.s6, c.s1, c.s4, c.s7);
-#endif
-}
-
-/// The points of LANES primitives from sorted position `first` on, in `space`.
-INLINE void load_primitives(const Nodes* nodes, uint first, const Space* space, Vector* points) {
-    real x[8], y[8], z[8];
-    load_coordinates(nodes->points, first, x);
-    load_coordinates(nodes->points + nodes->stride, first, y);
-    load_coordinates(nodes->points + 2 * (size_t)nodes->stride, first, z);
-    for (uint k = 0; k < POINTS_PER_PRIMITIVE; ++k) {
-        const Vector p = {x[k], y[k], z[k]};
-        to_space(space, &p, &points[k]);
-    }
-}
-
-/// The points of the primitives at any LANES sorted positions. Reads behind them as above.
+/// The points of the primitives at LANES sorted positions. Reads behind them, where the array has room for it.
 INLINE void load_primitives_at(const Nodes* nodes, const uint* positions, const Space* space, Vector* points) {
     real x[8], y[8], z[8];
 #if POINTS_PER_PRIMITIVE == 8

@@ -26,7 +26,8 @@ struct Fit {
     std::uint32_t count;
     Buffer<float> points;
     std::uint32_t stride;
-    Buffer<float> errors;
+    Buffer<float> errors;  ///< Top level only.
+    Buffer<float> moments; ///< obb_moments only.
     Buffer<Obb> boxes;
 };
 
@@ -39,14 +40,18 @@ KernelRef kernel_of(const Fit& fit, const char* file, const char* name, Defines 
     return {file, name, std::move(defines)};
 }
 
+const char* flag(bool value) { return value ? "1" : "0"; }
+
 void fit_triangles(Fit& fit, const Geometry& geometry) {
+    const Bounds kind = fit.options.kind;
+    const bool needs_points = kind != Bounds::obb_boxes && kind != Bounds::obb_quaternion;
+    const KernelRef kernel =
+        kernel_of(fit, "hierarchy/obb_leaves.cl", "triangle_leaves",
+                  {{"SORTED_POINTS", flag(needs_points)}, {"MOMENTS", flag(kind == Bounds::obb_moments)}});
     const Slices slices = cut(fit.device, fit.count);
-    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "sorted_points"), "sorted points", slices.slices,
-           fit.topology.order, geometry.positions, geometry.triangles, fit.points, fit.stride, fit.count,
-           slices.length);
-    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "triangle_leaves"), "leaf boxes", slices.slices,
-           fit.aabbs, fit.points, fit.stride, fit.boxes, fit.count, slices.length);
-    launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots", fit.topology.trees(),
+    launch(fit.device, kernel, "leaf boxes", slices.slices, fit.topology.order, geometry.positions, geometry.triangles,
+           fit.aabbs, fit.points, fit.stride, fit.moments, fit.boxes, fit.count, slices.length);
+    launch(fit.device, {"hierarchy/obb_empty.cl", "empty_boxes"}, "unused boxes", fit.topology.trees(),
            fit.topology.offsets, fit.boxes, static_cast<std::uint32_t>(fit.topology.trees()));
 }
 
@@ -59,19 +64,12 @@ void each_level(const NodeLevels& levels, const Run& run) {
 
 /// One launch per level; `extents`: boxes from the children's, else axes alone.
 void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool extents) {
-    Buffer<float> moments;
-    if (merge[0] == '0') {
-        moments = make_scratch<float>(fit.device, 24 * std::size_t{fit.count}, "moments of nodes");
-        const Slices slices = cut(fit.device, fit.count);
-        launch(fit.device, kernel_of(fit, "hierarchy/obb_leaves.cl", "leaf_moments"), "leaf moments", slices.slices,
-               fit.aabbs, fit.points, fit.stride, moments, fit.count, slices.length);
-    }
     const KernelRef kernel =
-        kernel_of(fit, "hierarchy/obb_merge.cl", "merge_level", {{"MERGE", merge}, {"EXTENTS", extents ? "1" : "0"}});
+        kernel_of(fit, "hierarchy/obb_merge.cl", "merge_level", {{"MERGE", merge}, {"EXTENTS", flag(extents)}});
     each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
         const Slices slices = cut(fit.device, size, 8);
         launch(fit.device, kernel, "merged nodes", slices.slices, levels.nodes, first, size, slices.length,
-               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, fit.errors, moments,
+               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, fit.errors, fit.moments,
                fit.boxes, fit.count);
     });
 }
@@ -163,6 +161,11 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
     }
 }
 
+Buffer<float> make_moments(Device& device, std::uint32_t count, Bounds kind) {
+    if (kind != Bounds::obb_moments) return {};
+    return make_scratch<float>(device, 24 * std::size_t{count}, "moments of nodes");
+}
+
 Fit make_fit(Device& device, const Topology& topology, BufferView<const Aabb> aabbs, const BoundsOptions& options,
              std::uint32_t points_per_primitive) {
     const auto count = static_cast<std::uint32_t>(topology.size());
@@ -176,6 +179,7 @@ Fit make_fit(Device& device, const Topology& topology, BufferView<const Aabb> aa
             make_scratch<float>(device, 3 * std::size_t{stride}, "sorted points"),
             stride,
             {},
+            make_moments(device, count, options.kind),
             make_scratch<Obb>(device, 2 * std::size_t{count}, "oriented boxes of nodes")};
 }
 
@@ -197,12 +201,12 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
     const auto kernel = [&](const char* kernel_name) {
         KernelRef reference = kernel_of(fit, "hierarchy/obb_instances.cl", kernel_name);
         reference.defines["LANES"] = "1";
+        reference.defines["MOMENTS"] = flag(options.kind == Bounds::obb_moments);
         return reference;
     };
     launch(device, kernel("instance_leaves"), "leaf boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
-           fit.points, fit.stride, fit.errors, fit.boxes, fit.count);
-    launch(device, kernel_of(fit, "hierarchy/obb_leaves.cl", "empty_boxes"), "unused slots", 1, topology.offsets,
-           fit.boxes, 1u);
+           fit.points, fit.stride, fit.errors, fit.moments, fit.boxes, fit.count);
+    launch(device, {"hierarchy/obb_empty.cl", "empty_boxes"}, "unused boxes", 1, topology.offsets, fit.boxes, 1u);
     const NodeLevels levels = node_levels(device, topology);
     each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
         launch(device, kernel("merge_errors"), "merged errors", size, levels.nodes, first, size, topology.children,
