@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <filesystem>
+
 #include <algorithm>
 #include <cmath>
 
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
+#include "boxwood/gltf.hpp"
 #include "boxwood/requirements.hpp"
 #include "hierarchy/capacity.hpp"
 #include "hierarchy/forest_scene.hpp"
@@ -185,6 +188,27 @@ TEST_CASE("build: valid trees of every kind of oriented boxes, which enclose eve
         check_valid(placed_scene(), options);
         CHECK(build_image(Scene{}, options).bounds == options.bounds.kind);
     }
+}
+
+TEST_CASE("build: real scenes, every kind of oriented boxes, which enclose everything") {
+    if (scenes_folder().empty() || small_sizes()) {
+        MESSAGE("skipped: real scenes (BOXWOOD_SCENES is not set, or sizes are kept small)");
+        return;
+    }
+    std::size_t checked = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(scenes_folder())) {
+        if (entry.path().extension() != ".glb") continue;
+        CAPTURE(entry.path());
+        const Scene scene = load_gltf(entry.path());
+        if (scene.instanced_triangle_count() > 100'000) continue; // every ancestor of every vertex takes a while
+        ++checked;
+        for (const BuildOptions& options : oriented_options()) {
+            CAPTURE(name(options.bounds.kind));
+            CAPTURE(name(options.levels));
+            check_valid(scene, options);
+        }
+    }
+    CHECK(checked > 0);
 }
 
 TEST_CASE("build: the layout follows the volumes, and wide8 refuses oriented boxes") {
