@@ -20,8 +20,8 @@ inline void visit_node(global uint* heights, uint node, uint2 children, uint cou
 
 #include "hierarchy/climb.h"
 
-/// heights[node] for the inner nodes of one slice of positions; unused slots keep what they had (1: see
-/// collapse_binary.cl, where the slot of a one-primitive tree is a node). Before: arrivals are 0.
+/// heights[node] for the inner nodes of one slice of positions; unused slots keep what they had. Before:
+/// arrivals are 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void node_heights(global const uint2* children, global const uint* parents, global const uint* far_ends,
              global handoff_t* arrivals, global uint* heights, uint count, uint slice) {

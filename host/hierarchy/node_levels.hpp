@@ -8,6 +8,15 @@
 
 namespace boxwood {
 
+/// The height of each inner node, 0 for unused slots, and the greatest; a node above leaves alone has 1.
+struct NodeHeights {
+    Buffer<std::uint32_t> heights;
+    std::uint32_t greatest = 0;
+};
+
+/// Waits for the greatest. O(n).
+NodeHeights node_heights(Device& device, const Topology& topology);
+
 /// The inner nodes of a forest by height: height 1 is above leaves alone, and a node comes after both of its children.
 struct NodeLevels {
     Buffer<std::uint32_t> nodes; ///< Ascending by height, then by index; unused slots come first.
