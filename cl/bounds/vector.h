@@ -90,7 +90,8 @@ INLINE void orthonormalise(Frame* frame) {
 
 /// The power of two at or below each positive value, at least the smallest normal one.
 INLINE real power_below(real value) {
-    return AS_REAL(max(AS_INT(value) & 0x7f800000, 0x00800000));
+    // Of two masks: Oclgrind 21.10 reads behind the scalar in max(int8, int).
+    return AS_REAL(max(AS_INT(value) & 0x7f800000, (mask)(0x00800000)));
 }
 
 /// 1 / power, exact, for powers of two from 2^-126 to 2^126.

@@ -76,7 +76,8 @@ INLINE void load_child(const Nodes* nodes, global const Obb* boxes, const uint* 
     int is_leaf[LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
         is_leaf[lane] = index[lane] >= nodes->count ? 1 : 0;
-        position[lane] = is_leaf[lane] ? index[lane] - nodes->count : 0;
+        // Not ?:, which becomes llvm.usub.sat: Oclgrind 21.10 does not know it.
+        position[lane] = select(0u, index[lane] - nodes->count, (uint)is_leaf[lane]);
     }
     child->leaf = LOAD_LANES(is_leaf) != 0;
     load_boxes(boxes, index, space, &child->box);

@@ -216,11 +216,6 @@ Extraction extraction_cases(int count) {
 } // namespace
 
 TEST_CASE("rotation: of any matrix the rotation of largest trace, from any start") {
-    if (small_sizes()) {
-        // Near a saddle Oclgrind 21.10 takes other steps with one lane than with eight; its arithmetic is not the device's.
-        MESSAGE("skipped: under a checker the rotation in a matrix is not that of a device");
-        return;
-    }
     const Extraction cases = extraction_cases(small_sizes() ? 1 : 40);
     const auto rotations = in_lanes(file, "extract_test", cases.starts, cases.matrices);
     double worst_trace = 0, worst_angle = 0;
@@ -251,11 +246,6 @@ TEST_CASE("rotation: of any matrix the rotation of largest trace, from any start
 }
 
 TEST_CASE("rotation: the size of a matrix does not matter, to the bit") {
-    if (small_sizes()) {
-        // Near a saddle Oclgrind 21.10 takes other steps with one lane than with eight; its arithmetic is not the device's.
-        MESSAGE("skipped: under a checker the rotation in a matrix is not that of a device");
-        return;
-    }
     const Extraction cases = extraction_cases(small_sizes() ? 1 : 4);
     const auto expected = in_lanes(file, "extract_test", cases.starts, cases.matrices);
     for (const int exponent : {-60, -20, 1, 60, 120}) {
