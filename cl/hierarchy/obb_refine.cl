@@ -4,9 +4,10 @@
 // their use), since the extremes of a node are among those of its children. A frame is then turned about one of its axes at
 // a time until the box around the extremes is smallest. Starts are the frame found before and the axes of the world.
 //
-//   refined_nodes   which nodes have at least SMALLEST primitives
-//   level_extremes  the extreme points of these among one level's nodes
-//   refine_frames   their axes
+//   refined_nodes  which nodes have at least SMALLEST primitives
+//   refined_slots  lists them
+//   node_extremes  their extreme points, bottom-up
+//   refine_frames  their axes
 //
 // SMALLEST  primitives, see above
 // POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h; LANES is 1
@@ -14,6 +15,7 @@
 // compile: SMALLEST=24 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/eigen.h"
 #include "hierarchy/obb_node.h"
+#include "runtime/handoff.h"
 
 #define DIRECTIONS 16
 #define EXTREMES (2 * DIRECTIONS)
@@ -54,16 +56,41 @@ INLINE uint node_size(uint node, global const uint* far_ends, uint count) {
     return node < count ? range_size(node, far_ends) : 1;
 }
 
+/// What the walk over the nodes needs.
+typedef struct Extremes {
+    Nodes nodes;
+    global const uint* far_ends;
+    global const uint* slots;      ///< The exclusive scan of `refined`.
+    global const uint* slot_nodes; ///< The node of each slot.
+    global uint* points;           ///< EXTREMES for each slot.
+} Extremes;
+
 /// Takes in the points below a child: its extremes, when it has any, else all of them.
-INLINE void add_child(const Nodes* nodes, const Space* space, global const uint* far_ends, uint child,
-                      global const uint* slots, global const uint* extremes, Ends* ends) {
-    if (node_size(child, far_ends, nodes->count) >= SMALLEST) {
-        global const uint* source = extremes + EXTREMES * (size_t)slots[child];
-        for (uint k = 0; k < EXTREMES; ++k) add_end(nodes, space, source[k], ends);
+INLINE void add_child(const Extremes* data, const Space* space, uint child, Ends* ends) {
+    if (node_size(child, data->far_ends, data->nodes.count) >= SMALLEST) {
+        global const uint* source = data->points + EXTREMES * (size_t)data->slots[child];
+        for (uint k = 0; k < EXTREMES; ++k) add_end(&data->nodes, space, source[k], ends);
     } else {
-        const uint2 range = range_of(child, far_ends, nodes->count);
-        for (uint i = range.x; i <= range.y; ++i) add_end(nodes, space, i * POINTS_PER_PRIMITIVE, ends);
+        const uint2 range = range_of(child, data->far_ends, data->nodes.count);
+        for (uint i = range.x; i <= range.y; ++i) add_end(&data->nodes, space, i * POINTS_PER_PRIMITIVE, ends);
     }
+}
+
+INLINE uint refined_children(const Extremes* data, uint2 children) {
+    const uint count = data->nodes.count;
+    return (node_size(children.x, data->far_ends, count) >= SMALLEST ? 1u : 0u) +
+           (node_size(children.y, data->far_ends, count) >= SMALLEST ? 1u : 0u);
+}
+
+INLINE void find_extremes(const Extremes* data, uint slot, uint2 children) {
+    const uint node = data->slot_nodes[slot];
+    Space space;
+    space_of(data->nodes.aabbs, &node, &space);
+    Ends ends = {(float16)(INFINITY), (float16)(-INFINITY), (uint16)(0), (uint16)(0)};
+    add_child(data, &space, children.x, &ends);
+    add_child(data, &space, children.y, &ends);
+    vstore16(ends.lowest, 0, data->points + EXTREMES * (size_t)slot);
+    vstore16(ends.highest, 1, data->points + EXTREMES * (size_t)slot);
 }
 
 /// refined[i] = 1 for the inner nodes that are refined, else 0.
@@ -76,27 +103,34 @@ void refined_nodes(global const uint2* children, global const uint* far_ends, gl
         refined[i] = children[i].x != BOXWOOD_NONE && range_size(i, far_ends) >= SMALLEST ? 1 : 0;
 }
 
-/// extremes: EXTREMES points for each refined node of one level, at its slot (the exclusive scan of `refined`); slot_nodes: the
-/// node of each slot.
-/// Before: those of lower levels are done.
+/// slot_nodes, see Extremes.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void level_extremes(global const uint* level, uint first, uint level_count, uint slice, global const uint2* children,
-                    global const uint* far_ends, global const Aabb* aabbs, global const float* points, uint stride,
-                    global const uint* slots, global uint* slot_nodes, global uint* extremes, uint count) {
+void refined_slots(global const uint* refined, global const uint* slots, global uint* slot_nodes, uint count,
+                   uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
-    const uint end = begin < level_count ? min(begin + slice, level_count) : begin;
-    const Nodes nodes = {aabbs, points, stride, 0, count};
+    const uint end = begin < count ? min(begin + slice, count) : begin;
+    for (uint i = begin; i < end; ++i)
+        if (refined[i]) slot_nodes[slots[i]] = i;
+}
+
+/// extremes, see Extremes. Work begins at the nodes of one slice of slots that have no refined child, and goes up from there.
+/// Before: arrivals, one per slot, are 0.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void node_extremes(global const uint2* children, global const uint* parents, global const uint* far_ends,
+                   global handoff_t* arrivals, global const Aabb* aabbs, global const float* points, uint stride,
+                   global const uint* slots, global const uint* slot_nodes, global uint* extremes, uint count,
+                   uint slot_count, uint slice) {
+    const uint begin = (uint)get_global_id(0) * slice;
+    const uint end = begin < slot_count ? min(begin + slice, slot_count) : begin;
+    const Extremes data = {{aabbs, points, stride, 0, count}, far_ends, slots, slot_nodes, extremes};
     for (uint i = begin; i < end; ++i) {
-        const uint node = level[first + i];
-        if (range_size(node, far_ends) < SMALLEST) continue;
-        slot_nodes[slots[node]] = node;
-        Space space;
-        space_of(aabbs, &node, &space);
-        Ends ends = {(float16)(INFINITY), (float16)(-INFINITY), (uint16)(0), (uint16)(0)};
-        add_child(&nodes, &space, far_ends, children[node].x, slots, extremes, &ends);
-        add_child(&nodes, &space, far_ends, children[node].y, slots, extremes, &ends);
-        vstore16(ends.lowest, 0, extremes + EXTREMES * (size_t)slots[node]);
-        vstore16(ends.highest, 1, extremes + EXTREMES * (size_t)slots[node]);
+        uint node = slot_nodes[i];
+        if (refined_children(&data, children[node]) != 0) continue;
+        find_extremes(&data, slots[node], children[node]);
+        for (node = parents[node]; node != BOXWOOD_NONE; node = parents[node]) {
+            if (refined_children(&data, children[node]) == 2 && !handoff_is_second(arrivals + slots[node])) break;
+            find_extremes(&data, slots[node], children[node]);
+        }
     }
 }
 

@@ -101,7 +101,7 @@ void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32
 }
 
 /// Turns the axes of nodes with many points until the box around their extreme points is smallest.
-void refine_frames(Fit& fit, const NodeLevels& levels) {
+void refine_frames(Fit& fit) {
     Device& device = fit.device;
     const auto kernel = [&](const char* name) {
         KernelRef reference = kernel_of(fit, "hierarchy/obb_refine.cl", name,
@@ -121,17 +121,23 @@ void refine_frames(Fit& fit, const NodeLevels& levels) {
     const Buffer<std::uint32_t> extremes =
         make_scratch<std::uint32_t>(device, std::size_t{32} * total, "extreme points of nodes");
     const Buffer<std::uint32_t> slot_nodes = make_scratch<std::uint32_t>(device, total, "nodes of slots");
-    each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
-        const Slices part = cut(device, size);
-        launch(device, kernel("level_extremes"), "extreme points", part.slices, levels.nodes, first, size, part.length,
-               fit.topology.children, fit.topology.far_ends, fit.aabbs, fit.points, fit.stride, slots, slot_nodes,
-               extremes, fit.count);
-    });
+    const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, total, "arrivals at nodes");
+    fill<std::uint32_t>(device, arrivals, 0);
+    launch(device, kernel("refined_slots"), "refined nodes", slices.slices, refined, slots, slot_nodes, fit.count,
+           slices.length);
+    const Slices parts = cut(device, total);
+    launch(device, kernel("node_extremes"), "extreme points", parts.slices, fit.topology.children, fit.topology.parents,
+           fit.topology.far_ends, arrivals, fit.aabbs, fit.points, fit.stride, slots, slot_nodes, extremes, fit.count,
+           total, parts.length);
     // Few nodes and much work for each: one per work-item.
     launch(device, kernel("refine_frames"), "refined frames", total, slot_nodes, fit.aabbs, fit.points, fit.stride,
            extremes, fit.boxes, fit.count, total, 1u);
 }
 
+/// Whether nodes are merged from their children, one level after the other.
+bool works_by_levels(Bounds kind) { return kind != Bounds::obb_points && kind != Bounds::obb_refined; }
+
+/// levels: of all inner nodes; empty for kinds that do not work by levels.
 void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
     switch (fit.options.kind) {
     case Bounds::obb_points:
@@ -153,7 +159,7 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
         break;
     case Bounds::obb_refined:
         pass_over_ranges(fit, "0", "covariances", refined_points / fit.points_per_primitive - 1);
-        refine_frames(fit, levels);
+        refine_frames(fit);
         pass_over_ranges(fit, "1", "extents");
         break;
     case Bounds::aabb:
@@ -189,7 +195,7 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
                         const Geometry& geometry, const BoundsOptions& options) {
     Fit fit = make_fit(device, topology, aabbs, options, 3);
     fit_triangles(fit, geometry);
-    fit_inner_nodes(fit, options.kind == Bounds::obb_points ? NodeLevels{} : node_levels(device, topology));
+    fit_inner_nodes(fit, works_by_levels(options.kind) ? node_levels(device, topology) : NodeLevels{});
     return std::move(fit.boxes);
 }
 
