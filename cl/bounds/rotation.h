@@ -182,7 +182,8 @@ INLINE void extract_rotation(const Frame* matrix, Quaternion* q) {
     scale3(scale, &m.a);
     scale3(scale, &m.b);
     scale3(scale, &m.c);
-    for (int step = 0; step < ROTATION_STEPS; ++step) {
+    mask moving = AS_INT(scale) == AS_INT(scale);
+    for (int step = 0; step < ROTATION_STEPS && ANY(moving); ++step) {
         Frame r;
         frame_of(q, &r);
         const real xy = dot3(&r.a, &m.b), yx = dot3(&r.b, &m.a), xz = dot3(&r.a, &m.c), zx = dot3(&r.c, &m.a);
@@ -210,8 +211,12 @@ INLINE void extract_rotation(const Frame* matrix, Quaternion* q) {
         by.z *= factor;
         by.w *= factor;
         normalise4(&by);
-        multiply4(q, &by, q);
-        normalise4(q);
+        Quaternion turned;
+        multiply4(q, &by, &turned);
+        normalise4(&turned);
+        // A lane that stands still does so for good, so that its result is the same in any company.
+        moving = (moving != 0) & (fabs(by.x) + fabs(by.y) + fabs(by.z) > 2.0f * 0x1p-24f);
+        choose4(moving, &turned, q);
     }
 }
 

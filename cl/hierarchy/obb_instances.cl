@@ -86,7 +86,11 @@ INLINE void placed_frame(global const InstanceRecord* record, global const Obb* 
     if (dot3(&normal, &columns[2]) < 0.0f)
         for (int k = 0; k < 3; ++k) scale3(-1.0f, &columns[k]);
     const Frame matrix = {columns[0], columns[1], columns[2]};
-    Quaternion q = {0.0f, 0.0f, 0.0f, 1.0f};
+    // Where nothing is sheared this start is the rotation.
+    Frame start = matrix;
+    Quaternion q;
+    orthonormalise(&start);
+    quaternion_of(&start, &q);
     extract_rotation(&matrix, &q);
     frame_of(&q, axes);
     orthonormalise(axes);

@@ -11,8 +11,8 @@
 //
 // SMALLEST  primitives, see above
 // POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h; LANES is 1
-// compile: SMALLEST=64 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
-// compile: SMALLEST=24 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
+// compile: SMALLEST=256 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
+// compile: SMALLEST=2 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/eigen.h"
 #include "hierarchy/obb_node.h"
 #include "runtime/handoff.h"
@@ -21,6 +21,9 @@
 #define EXTREMES (2 * DIRECTIONS)
 // Turns about each of the three axes.
 #define ROUNDS 2
+
+// Points taken of a primitive: neighbours share a triangle's vertices, but nothing else has the corners of an instance.
+#define SAMPLES (POINTS_PER_PRIMITIVE == 3 ? 1 : POINTS_PER_PRIMITIVE)
 
 // The axes of a cube through its faces, edges and corners, and three more to fill two vectors; no direction is farther than
 // 23 degrees from one of them or its opposite. Their lengths do not matter.
@@ -72,7 +75,8 @@ INLINE void add_child(const Extremes* data, const Space* space, uint child, Ends
         for (uint k = 0; k < EXTREMES; ++k) add_end(&data->nodes, space, source[k], ends);
     } else {
         const uint2 range = range_of(child, data->far_ends, data->nodes.count);
-        for (uint i = range.x; i <= range.y; ++i) add_end(&data->nodes, space, i * POINTS_PER_PRIMITIVE, ends);
+        for (uint i = range.x; i <= range.y; ++i)
+            for (uint k = 0; k < SAMPLES; ++k) add_end(&data->nodes, space, i * POINTS_PER_PRIMITIVE + k, ends);
     }
 }
 

@@ -11,8 +11,9 @@ namespace {
 
 /// Primitives that one work-item may take at a time; see cl/hierarchy/obb_ranges.cl.
 constexpr std::uint32_t longest_range = 4096;
-/// Points from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the nodes.
-constexpr std::uint32_t refined_points = 768;
+/// Primitives from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the nodes. A
+/// top level has few nodes, and large ones.
+constexpr std::uint32_t refined_triangles = 256, refined_instances = 2;
 /// Floats that a vector load may read behind the last point.
 constexpr std::uint32_t padding = 64;
 
@@ -100,12 +101,16 @@ void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32
            fit.topology.far_ends, fit.aabbs, fit.errors, parts, fit.boxes, fit.count, slices.length);
 }
 
+std::uint32_t smallest_refined(const Fit& fit) {
+    return fit.points_per_primitive == 3 ? refined_triangles : refined_instances;
+}
+
 /// Turns the axes of nodes with many points until the box around their extreme points is smallest.
 void refine_frames(Fit& fit) {
     Device& device = fit.device;
     const auto kernel = [&](const char* name) {
-        KernelRef reference = kernel_of(fit, "hierarchy/obb_refine.cl", name,
-                                        {{"SMALLEST", std::to_string(refined_points / fit.points_per_primitive)}});
+        KernelRef reference =
+            kernel_of(fit, "hierarchy/obb_refine.cl", name, {{"SMALLEST", std::to_string(smallest_refined(fit))}});
         reference.defines["LANES"] = "1";
         return reference;
     };
@@ -158,7 +163,7 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
         if (fit.options.extents == Extents::exact) pass_over_ranges(fit, "1", "extents");
         break;
     case Bounds::obb_refined:
-        pass_over_ranges(fit, "0", "covariances", refined_points / fit.points_per_primitive - 1);
+        pass_over_ranges(fit, "0", "covariances", smallest_refined(fit) - 1);
         refine_frames(fit);
         pass_over_ranges(fit, "1", "extents");
         break;
