@@ -2,7 +2,8 @@
 // Oriented boxes, a better frame for the large nodes, which hold most of the volume of a tree (dissertation 3.5 stops at
 // PCA). Of each node only the extreme points along fixed directions are kept, as in a k-DOP (Larsson and Kallberg 2011, for
 // their use), since the extremes of a node are among those of its children. A frame is then turned about one of its axes at
-// a time until the box around the extremes is smallest. Starts are the frame found before and the axes of the world.
+// a time until the box around the extremes is smallest. The start is the better of the eigenvectors of their covariance and the
+// axes of the world.
 //
 //   refined_nodes  which nodes have at least SMALLEST primitives
 //   refined_slots  lists them
@@ -222,7 +223,7 @@ INLINE void covariance_axes(const Vector* points, Frame* axes) {
     eigenvectors(&covariance, axes);
 }
 
-/// A frame of smaller measure than `axes`, from there.
+/// A frame of no larger measure than `axes`, from there.
 static void refine(const Vector* points, const float8* steps, Frame* axes) {
     for (int round = 0; round < ROUNDS; ++round) {
         turn(points, &axes->c, steps, &axes->a, &axes->b);
@@ -252,9 +253,8 @@ void refine_frames(global const uint* slot_nodes, global const Aabb* aabbs, glob
         Frame axes, straight;
         covariance_axes(extreme, &axes);
         identity_frame(&straight);
-        refine(extreme, steps, &axes);
-        refine(extreme, steps, &straight);
         if (box_measure(extreme, &straight) < box_measure(extreme, &axes)) axes = straight;
+        refine(extreme, steps, &axes);
         store_frame(&axes, boxes, &node, 1);
     }
 }
