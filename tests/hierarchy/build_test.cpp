@@ -126,7 +126,11 @@ std::size_t outside_top(const TreeImage& image, const Scene& scene) {
     const auto leaf_points = [&](std::uint32_t instance, std::vector<glm::dvec3>& points) {
         const glm::dmat4 to_world(scene.instances[instance].transform);
         const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
-        for (const glm::vec3& p : mesh.positions) points.emplace_back(to_world * glm::dvec4(p, 1.0));
+        // Of 35,947 vertices of the bunny's scan 1,113 are in no triangle, and in no box.
+        std::vector<bool> used(mesh.positions.size(), false);
+        for (const glm::uvec3& triangle : mesh.triangles) used[triangle.x] = used[triangle.y] = used[triangle.z] = true;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (used[i]) points.emplace_back(to_world * glm::dvec4(mesh.positions[i], 1.0));
     };
     if (image.bounds != Bounds::aabb) return outside_below(image.oriented_top, 0, leaf_points, is_outside, all);
     return image.layout == Layout::binary ? outside_below(image.binary_top, 0, leaf_points, is_outside, all)
