@@ -7,23 +7,11 @@
 #include "bounds/eigen.h"
 #include "bounds/moments.h"
 #include "bounds/oriented_box.h"
+#include "primitives/segments.h"
 
 // Eigenvalues this close, relative to the larger, are close: random samples of a shape with a repeated one, some hundreds of
 // them, are as far apart.
 #define CLOSE 0.125f
-
-/// The first segment that ends after element `i`, `segments` if there is none. O(log segments).
-static inline uint segment_ending_after(global const uint* offsets, uint segments, uint i) {
-    uint low = 0, high = segments;
-    while (low < high) {
-        const uint middle = low + (high - low) / 2;
-        if (offsets[middle + 1] > i)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
 
 /// The vertex that is corner k of element i.
 INLINE uint vertex_of(global const uint* triangles, uint i, int k) {

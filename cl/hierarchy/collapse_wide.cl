@@ -7,6 +7,7 @@
 // compile: TRIANGLE_LEAVES=1
 // compile: TRIANGLE_LEAVES=0
 #include "runtime/numerics.h"
+#include "primitives/segments.h"
 #include "hierarchy/forest.h"
 #include "hierarchy/shares.h"
 #include "shared/node.h"
@@ -214,7 +215,7 @@ void write_blocks(global const uint* leaf_sources, global const uint* far_ends, 
     const uint end = min(begin + slice, leaves);
     for (uint i = begin; i < end; ++i) {
         const uint2 range = range_of(leaf_sources[i], far_ends, count);
-        const uint first_triangle = offsets[tree_of(offsets, trees, range.x)];
+        const uint first_triangle = offsets[segment_of(offsets, trees, range.x)];
         write_block(blocks + first_leaf + i, range, order, positions, triangles, first_triangle);
     }
 }

@@ -9,7 +9,7 @@
 // compile: KEY=ulong AXIS_BITS=21 FOREST=0
 #include "runtime/numerics.h"
 #include "bounds/box.h"
-#include "hierarchy/forest.h"
+#include "primitives/segments.h"
 
 
 #if !defined(KEY) || !defined(AXIS_BITS) || !defined(FOREST)
@@ -70,7 +70,7 @@ void morton_keys(global const Aabb* boxes, global const uint* offsets, global co
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
-    uint tree = tree_of(offsets, trees, begin);
+    uint tree = segment_of(offsets, trees, begin);
     uint tree_end = offsets[tree + 1];
     Grid grid = grid_of(tree_bounds + tree);
     for (uint i = begin; i < end; ++i) {

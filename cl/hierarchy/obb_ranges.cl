@@ -20,6 +20,7 @@
 // compile: PASS=1 CHUNK=4096 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=0
 #include "bounds/eigen.h"
 #include "hierarchy/obb_node.h"
+#include "primitives/segments.h"
 
 #if PASS == 0
 #define RESULTS 9 // mean, covariance
@@ -258,7 +259,7 @@ void long_chunks(global const uint* first_chunks, global const uint* far_ends, g
     if (chunk >= chunk_count) return;
     const Nodes nodes = {aabbs, points, stride, 0, count};
     uint index[LANES];
-    for (uint lane = 0; lane < LANES; ++lane) index[lane] = tree_of(first_chunks, count, chunk);
+    for (uint lane = 0; lane < LANES; ++lane) index[lane] = segment_of(first_chunks, count, chunk);
     const uint2 ends = range_of(index[0], far_ends, count);
     const uint first = ends.x + (chunk - first_chunks[index[0]]) * CHUNK;
     const uint last = min(first + CHUNK, ends.y + 1);

@@ -7,6 +7,7 @@
 // compile: ORIENTED=0
 // compile: ORIENTED=1
 #include "runtime/numerics.h"
+#include "primitives/segments.h"
 #include "hierarchy/forest.h"
 #include "runtime/inline.h"
 #include "shared/aabb.h"
@@ -134,7 +135,7 @@ void end_point_overlap(global const uint2* children, global const uint* parents,
     const float3 edge2 = (float3)(triangle->edge2[0], triangle->edge2[1], triangle->edge2[2]) / unit;
     areas[sample] = 0.5f * length(cross(edge1, edge2));
 
-    const uint tree = tree_of(offsets, trees, position);
+    const uint tree = segment_of(offsets, trees, position);
     const uint root = offsets[tree + 1] - offsets[tree] > 1 ? offsets[tree] : count + offsets[tree];
     float sum = 0.0f;
     uint visited = 0;

@@ -2,7 +2,7 @@
 // The leaves of the binary layouts.
 // compile:
 #include "runtime/numerics.h"
-#include "hierarchy/forest.h"
+#include "primitives/segments.h"
 #include "shared/triangle.h"
 
 /// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh, for the positions
@@ -13,7 +13,7 @@ void triangle_records(global const uint* order, global const uint* offsets, glob
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
-    uint tree = tree_of(offsets, trees, begin);
+    uint tree = segment_of(offsets, trees, begin);
     for (uint i = begin; i < end; ++i) {
         while (i >= offsets[tree + 1]) ++tree;
         const uint primitive = order[i];

@@ -18,6 +18,7 @@
 #error "define GROUP_SIZE"
 #endif
 #include "primitives/operator.h"
+#include "primitives/segments.h"
 #include "shared/types.h"
 
 /// @pre  `offsets` has segments + 1 entries. Slices as in reduce.cl, over segments.
@@ -32,19 +33,6 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_em
     const uint last = first + min(length, segments - first);
     for (uint s = first; s < last; ++s)
         if (offsets[s] == offsets[s + 1]) STORE_ELEMENT(neutral(), out, s);
-}
-
-/// The first segment that ends after element `i`, `segments` if there is none. O(log segments).
-static uint segment_ending_after(global const uint* offsets, uint segments, uint i) {
-    uint low = 0, high = segments;
-    while (low < high) {
-        const uint middle = low + (high - low) / 2;
-        if (offsets[middle + 1] > i)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
 }
 
 /// @pre  `in` holds `count` > 0 elements, `offsets` segments + 1 ascending entries of at most `count`, segments > 0.

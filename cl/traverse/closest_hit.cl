@@ -11,23 +11,8 @@
 // compile: LAYOUT=8 ORIENTED=0 LEVELS=1 FLATTENED=1 STATISTICS=1 STACK_SIZE=32 PORTABLE_LANES=1
 // compile: LAYOUT=8 ORIENTED=0 LEVELS=2 FLATTENED=0 STATISTICS=1 STACK_SIZE=32 PORTABLE_LANES=0
 #define ANY_HIT 0
+#include "primitives/segments.h"
 #include "traverse/traversal.h"
-
-#if FLATTENED
-
-/// The instance that triangle `primitive` of the flattened scene belongs to: the last that starts at or before it.
-INLINE uint instance_of(uint primitive, global const uint* first_triangles, uint instance_count) {
-    uint low = 0;
-    uint high = instance_count;
-    while (high - low > 1) {
-        const uint middle = low + (high - low) / 2;
-        if (first_triangles[middle] <= primitive) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-#endif
 
 /// Each work-item traces `slice` consecutive rays; a ray's work is not known beforehand, so slices are short and many.
 ///
@@ -59,7 +44,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
         }
 #if FLATTENED
         if (walk.primitive != BOXWOOD_NONE) {
-            walk.instance = instance_of(walk.primitive, first_triangles, instance_count);
+            walk.instance = segment_of(first_triangles, instance_count, walk.primitive);
             walk.primitive -= first_triangles[walk.instance];
         }
 #endif

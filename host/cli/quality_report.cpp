@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/quality_report.hpp"
 
+#include "runtime/median.hpp"
+
 namespace boxwood::cli {
 
 namespace {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "runtime/median.hpp"
+
 namespace boxwood::cli {
 
 namespace {

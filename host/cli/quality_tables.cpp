@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/quality_report.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood::cli {
 

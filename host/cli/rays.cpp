@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/rays.hpp"
 
-#include <algorithm>
-
 #include "boxwood/rays.hpp"
 
 namespace boxwood::cli {
@@ -57,13 +55,6 @@ RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays) {
     }
     const auto count = static_cast<double>(rays.size());
     return {static_cast<double>(volumes) / count, static_cast<double>(primitives) / count};
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 double mrays_per_s(std::size_t rays, double ms) { return ms > 0.0 ? static_cast<double>(rays) / ms * 1e-3 : 0.0; }

@@ -35,9 +35,6 @@ struct RayWork {
 /// By a program of its own, so that counting costs a timed one nothing. Zeros for no rays.
 RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays);
 
-/// The middle value, the higher of two; 0 for none.
-double median(std::vector<double> values);
-
 /// 0 for no time.
 double mrays_per_s(std::size_t rays, double ms);
 

@@ -11,6 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/rays.hpp"
 #include "cli/report.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // boxwood-benchmark-build: what it costs to build many small meshes instead of one large one, all in the same launches.
 // Alternating runs in one process, medians.
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <utility>
 #include <vector>
 
+#include "benchmark.hpp"
 #include "boxwood/build.hpp"
 #include "boxwood/procedural.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {
@@ -27,11 +27,6 @@ Scene make_scene(std::uint32_t meshes, std::uint64_t triangles) {
         scene.instances.push_back({.name = "", .mesh = i});
     }
     return scene;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 /// Build from the uploaded triangles on, wall clock, in milliseconds.
@@ -61,11 +56,4 @@ int run() {
 } // namespace
 } // namespace boxwood
 
-int main() {
-    try {
-        return boxwood::run();
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "boxwood-benchmark-build: %s\n", error.what());
-        return 1;
-    }
-}
+int main() { return boxwood::benchmarks::guarded("boxwood-benchmark-build", boxwood::run); }

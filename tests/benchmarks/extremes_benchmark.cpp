@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <vector>
 
+#include "benchmark.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/volumes.hpp"
 #include "hierarchy/forest.hpp"
 #include "oracles/extreme_meshes.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {
@@ -91,11 +92,6 @@ Errors errors_of(Device& device, const Case& one, Bounds kind) {
     return errors;
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
 int run() {
     Device device;
     std::vector<Case> cases;
@@ -135,11 +131,4 @@ int run() {
 } // namespace
 } // namespace boxwood
 
-int main() {
-    try {
-        return boxwood::run();
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "boxwood-benchmark-extremes: %s\n", error.what());
-        return 1;
-    }
-}
+int main() { return boxwood::benchmarks::guarded("boxwood-benchmark-extremes", boxwood::run); }

@@ -6,14 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <iostream>
 #include <numeric>
 #include <random>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #ifdef BOXWOOD_HAVE_TBB
 #include <tbb/parallel_reduce.h>
@@ -21,11 +17,12 @@
 #include <tbb/parallel_sort.h>
 #endif
 
+#include "benchmark.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/primitives.hpp"
-#include "io/atomic_file.hpp"
 #include "runtime/kernel_text.hpp"
 #include "runtime/launch.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood {
 
@@ -65,11 +62,7 @@ nlohmann::json race(const std::vector<Contender>& contenders, int rounds) {
         }
     }
     nlohmann::json medians;
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-        const auto middle = times[i].begin() + rounds / 2;
-        std::nth_element(times[i].begin(), middle, times[i].end());
-        medians[contenders[i].name] = *middle;
-    }
+    for (std::size_t i = 0; i < contenders.size(); ++i) medians[contenders[i].name] = median(times[i]);
     return medians;
 }
 
@@ -256,20 +249,17 @@ double share_of_copy(const nlohmann::json& ms, double moved, double copied) {
 
 int run(int argc, char** argv) {
     CLI::App app("Times the primitives beside std:: and TBB.");
-    std::string selector, report;
-    int rounds = 9;
-    app.add_option("--device", selector, "index of a device or a part of its name");
-    app.add_option("--rounds", rounds, "runs of each contender")->check(CLI::Range(1, 1000));
-    app.add_option("--report", report, "JSON file to write");
+    benchmarks::Arguments arguments;
+    benchmarks::add_arguments(app, arguments);
     CLI11_PARSE(app, argc, argv);
 
-    Device device(selector);
+    Device device(arguments.device);
     add_kernels(benchmark_kernels);
-    Benchmark benchmark(device, rounds);
+    Benchmark benchmark(device, arguments.rounds);
     constexpr std::size_t pairs = 1000000, words = std::size_t{64} << 18; // 64 MiB of uint
     nlohmann::json milliseconds, ratios;
     std::printf("device: %s\nmedians of %d alternating runs, each after one that is not timed\n\n",
-                device.info().name.c_str(), rounds);
+                device.info().name.c_str(), arguments.rounds);
 
     print("radix sort, 1,000,000 random 32-bit pairs", milliseconds["sort"] = benchmark.sort(pairs));
     print("exclusive scan, 64 MiB of uint", milliseconds["scan"] = benchmark.scan(words));
@@ -286,18 +276,7 @@ int run(int argc, char** argv) {
     std::printf("\nratios\n");
     for (const auto& [name, ratio] : ratios.items()) std::printf("  %-34s %6.2f\n", name.c_str(), ratio.get<double>());
 
-    if (!report.empty()) {
-        const DeviceInfo& info = device.info();
-        AtomicFile file(report);
-        file.stream() << nlohmann::json{{"device",
-                                         {{"platform", info.platform}, {"name", info.name}, {"driver", info.driver}}},
-                                        {"rounds", rounds},
-                                        {"milliseconds", milliseconds},
-                                        {"ratios", ratios}}
-                             .dump(2)
-                      << '\n';
-        file.commit();
-    }
+    benchmarks::save_report(arguments, device.info(), milliseconds, ratios);
     return 0;
 }
 
@@ -305,10 +284,5 @@ int run(int argc, char** argv) {
 } // namespace boxwood
 
 int main(int argc, char** argv) {
-    try {
-        return boxwood::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "boxwood-benchmark-primitives: " << error.what() << '\n';
-        return 1;
-    }
+    return boxwood::benchmarks::guarded("boxwood-benchmark-primitives", [&] { return boxwood::run(argc, argv); });
 }

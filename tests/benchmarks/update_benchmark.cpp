@@ -2,32 +2,23 @@
 // boxwood-benchmark-update: what it costs to follow an animated scene: moving instances, deforming a mesh and refitting
 // one, beside building anew. In one process and in turns; medians and ratios are printed and, with --report, written as
 // JSON.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <iostream>
 #include <string>
 #include <tuple>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
+#include "benchmark.hpp"
 #include "boxwood/procedural.hpp"
 #include "boxwood/update.hpp"
-#include "io/atomic_file.hpp"
+#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 struct Subject {
     const char* name;
@@ -110,23 +101,20 @@ nlohmann::json measure(Device& device, const Subject& subject, int rounds) {
 
 int run(int argc, char** argv) {
     CLI::App app("Times the updates of animated scenes beside a build.");
-    std::string selector, report;
-    int rounds = 9;
-    app.add_option("--device", selector, "index of a device or a part of its name");
-    app.add_option("--rounds", rounds, "runs of each update")->check(CLI::Range(1, 1000));
-    app.add_option("--report", report, "JSON file to write");
+    benchmarks::Arguments arguments;
+    benchmarks::add_arguments(app, arguments);
     CLI11_PARSE(app, argc, argv);
 
-    Device device(selector);
+    Device device(arguments.device);
     const char* const names[] = {"move_instances", "deform", "refit", "rebuild"};
     std::printf("device: %s\nmilliseconds, medians of %d alternating runs, and the part of a rebuild's\n\n",
-                device.info().name.c_str(), rounds);
+                device.info().name.c_str(), arguments.rounds);
     std::printf("%-22s", "");
     for (const char* name : names) std::printf("%20s", name);
     std::printf("\n");
     nlohmann::json milliseconds, ratios;
     for (const Subject& subject : subjects()) {
-        const nlohmann::json medians = milliseconds[subject.name] = measure(device, subject, rounds);
+        const nlohmann::json medians = milliseconds[subject.name] = measure(device, subject, arguments.rounds);
         std::printf("%-22s", subject.name);
         for (const char* name : names) {
             const double ms = medians.at(name), ratio = ms / medians.at("rebuild").get<double>();
@@ -135,18 +123,7 @@ int run(int argc, char** argv) {
         }
         std::printf("\n");
     }
-    if (!report.empty()) {
-        const DeviceInfo& info = device.info();
-        AtomicFile file(report);
-        file.stream() << nlohmann::json{{"device",
-                                         {{"platform", info.platform}, {"name", info.name}, {"driver", info.driver}}},
-                                        {"rounds", rounds},
-                                        {"milliseconds", milliseconds},
-                                        {"ratios", ratios}}
-                             .dump(2)
-                      << '\n';
-        file.commit();
-    }
+    benchmarks::save_report(arguments, device.info(), milliseconds, ratios);
     return 0;
 }
 
@@ -154,10 +131,5 @@ int run(int argc, char** argv) {
 } // namespace boxwood
 
 int main(int argc, char** argv) {
-    try {
-        return boxwood::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "boxwood-benchmark-update: " << error.what() << '\n';
-        return 1;
-    }
+    return boxwood::benchmarks::guarded("boxwood-benchmark-update", [&] { return boxwood::run(argc, argv); });
 }

@@ -15,6 +15,7 @@
 #include "boxwood/trace.hpp"
 #include "embree_peer.hpp"
 #include "io/atomic_file.hpp"
+#include "runtime/median.hpp"
 #include "workload.hpp"
 
 namespace boxwood::peers {

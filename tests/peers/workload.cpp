@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "workload.hpp"
 
-#include <algorithm>
-
 #include "boxwood/geometry.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
@@ -10,12 +8,6 @@
 #include "boxwood/trace.hpp"
 
 namespace boxwood::peers {
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 Scene load_flat(const std::string& name) {
     for (const ProceduralKind& kind : procedural_kinds())

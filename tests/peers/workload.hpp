@@ -20,9 +20,6 @@ double milliseconds(const Work& work) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The middle value; the mean of the two in the middle of an even number.
-double median(std::vector<double> values);
-
 /// The scene of a glTF file, or of a procedural kind of that name, flattened to one mesh.
 Scene load_flat(const std::string& name);
 
