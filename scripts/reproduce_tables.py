@@ -63,7 +63,12 @@ def make_report(arguments, scene):
         if run.returncode != 0:
             print(f"left out: {scene.name}: {run.stderr.strip()}")
             return None
-    return json.loads(file.read_text(encoding="utf-8"))
+    try:
+        report = json.loads(file.read_text(encoding="utf-8"))
+        report["requirements"], [(kind["sum_volume"], kind["fit_ratio"], kind["passes_ms"]) for kind in report["kinds"].values()]
+        return report
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        sys.exit(f"reproduce_tables: {file}: not a report of boxwood quality ({error!r})")
 
 
 def levels_of(report):
@@ -101,7 +106,7 @@ def table_4(reports):
 
 
 def table_5(reports):
-    kinds = list(next(iter(reports.values()))["kinds"])[1:] if reports else []
+    kinds = list(dict.fromkeys(kind for report in reports.values() for kind in report["kinds"] if kind != "aabb"))
     order = PUBLISHED_KINDS + [kind for kind in kinds if kind not in PUBLISHED_KINDS]
     rows = [["scene", "codes", "sort", "nodes", "AABBs"] + order]
     for scene, report in reports.items():

@@ -7,7 +7,7 @@
 
 // JACOBI_SWEEPS  Converges quadratically: four sweeps take the entries off the diagonal of any float matrix below the
 //                rounding of those on it, the fifth is for the worst found by search. Where only the size of a box depends
-//                on it three will do.
+//                on it two or three will do: whoever defines it says what that costs.
 #ifndef JACOBI_SWEEPS
 #define JACOBI_SWEEPS 5
 #endif

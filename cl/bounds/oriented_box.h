@@ -3,7 +3,7 @@
 // a bound on their rounding, centre, and the choice between the box and the node's AABB (dissertation 3.1.3 and 3.5).
 //
 // A node computes in a space of its own, p' = (p - origin) / unit, with the centre of its AABB and a power of two near its
-// size, so that nothing over- or underflows, digits are kept far from the origin, and a scene scaled by a power of two
+// size, so that nothing overflows, what underflows is far below rounding, digits are kept far from the origin, and a scene scaled by a power of two
 // gives the same bits.
 //
 // MEASURE_AREA  0: the smaller volume is kept; 1: the smaller surface area
@@ -102,7 +102,7 @@ INLINE void widen(real from, real to, real* low, real* high) {
     *high = larger(to, *high);
 }
 
-/// Takes a point in. Its rounding is left to bound_rounding.
+/// Takes a point in. Its rounding is left to half_width.
 INLINE void add_point(const Frame* axes, const Vector* p, Slabs* slabs) {
     const real a = dot3(&axes->a, p), b = dot3(&axes->b, p), c = dot3(&axes->c, p);
     widen(a, a, &slabs->low.x, &slabs->high.x);
@@ -111,16 +111,16 @@ INLINE void add_point(const Frame* axes, const Vector* p, Slabs* slabs) {
 }
 
 /// Takes in the 8 corners of an orthonormal box, center +- extent[k] axis[k]: along an axis they reach
-/// sum extent[k] |axis . axis[k]| to either side. What that lacks to the true box is below 32 roundoffs of
-/// |axis| . |center| + sum extent[k]: 4 for the dot products, 4 for the sums, 24 for the box's edges, which are the columns of
-/// the inverse of its axes and not exactly their rows (see orthonormalise).
+/// sum extent[k] |axis . axis[k]| to either side. What that lacks to the true box is below 64 roundoffs of
+/// |axis| . |center| + sum extent[k]: 4 for the dot products, 4 for the sums, and for the box's edges, which are the columns of
+/// the inverse of its axes and not exactly their rows, 42 (24 in each of three entries, see orthonormalise).
 INLINE void add_box_along(const Vector* axis, const OrientedBox* box, real* low, real* high) {
     const real middle = dot3(axis, &box->center);
     const real a = fabs(dot3(axis, &box->axes.a)), b = fabs(dot3(axis, &box->axes.b)),
                c = fabs(dot3(axis, &box->axes.c));
     const real reach = fma(box->extent.x, a, fma(box->extent.y, b, box->extent.z * c));
     const real size = reach3(axis, &box->center) + box->extent.x + box->extent.y + box->extent.z;
-    const real padded = fma(32.0f * ROUNDOFF, size, reach);
+    const real padded = fma(64.0f * ROUNDOFF, size, reach);
     widen(middle - padded, middle + padded, low, high);
 }
 
@@ -160,7 +160,7 @@ INLINE real half_width(const Vector* axis, real low, real high, const Vector* re
                        const Vector* inexact) {
     const real middle = dot3(axis, center);
     const real size = reach3(axis, reach) + reach3(axis, center);
-    // What is below 2^-149 in the space is lost to it.
+    // Products and sums below 2^-126 round to multiples of 2^-149: of at most 8 of them half of one is lost each.
     const real error = fma(8.0f * ROUNDOFF, size, reach3(axis, inexact)) + 0x1p-146f;
     return fma(larger(high - middle, middle - low), (real)(1.0f + 2.0f * ROUNDOFF), error);
 }

@@ -51,7 +51,7 @@ inline float2 hit_chances(Box parent, Box a, Box b) {
 }
 
 inline bool is_leaf(const Costs* c, uint node, uint count) {
-    return node >= count || range_size(node, c->far_ends) <= LEAF_SIZE;
+    return node_size(node, c->far_ends, count) <= LEAF_SIZE;
 }
 
 /// A child's costs, weighted by the chance that a ray that hits the parent hits it.

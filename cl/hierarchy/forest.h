@@ -17,4 +17,9 @@ inline uint range_size(uint node, global const uint* far_ends) {
     return (other > node ? other - node : node - other) + 1;
 }
 
+/// Primitives below any node, leaves among them.
+inline uint node_size(uint node, global const uint* far_ends, uint count) {
+    return node < count ? range_size(node, far_ends) : 1;
+}
+
 #endif

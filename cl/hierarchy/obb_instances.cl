@@ -38,13 +38,15 @@ INLINE void load_vector_private(const float* source, Vector* v) {
     v->z = source[2];
 }
 
-/// A centre, an edge or a corner takes dot products of 3 and sums of 4 terms, the edges are the rows of axes that are
-/// orthonormal to rounding, and a corner is read relative to the origin of a node's space: 32 roundoffs of the sum of all
-/// magnitudes bound it all.
+/// A centre, an edge or a corner takes dot products of 3 and sums of 4 terms, and a corner is read relative to the origin of a
+/// node's space: 16 roundoffs of the sum of all magnitudes. The box's edges are the columns of the inverse of its axes, not exactly
+/// their rows: along each axis, those of all three edges together are off by 56 roundoffs (8 and twice 24, see
+/// orthonormalise) of the longest. 72 of all magnitudes with the longest extent on each axis bound both.
 INLINE void place_box(global const InstanceRecord* record, global const Obb* box, Placed* placed) {
     Vector center;
     load_vector(box->center, &center);
     float position[3], edge[3][3], size[3];
+    const float longest = larger(box->extent[0], larger(box->extent[1], box->extent[2]));
     for (int row = 0; row < 3; ++row) {
         Vector m;
         load_row(record->to_world, row, &m);
@@ -54,15 +56,15 @@ INLINE void place_box(global const InstanceRecord* record, global const Obb* box
         for (int k = 0; k < 3; ++k) {
             Vector axis;
             load_vector(box->axes + 3 * k, &axis);
+            size[row] += longest * reach3(&m, &axis);
             scale3(box->extent[k], &axis);
             edge[k][row] = dot3(&m, &axis);
-            size[row] += reach3(&m, &axis);
         }
     }
     load_vector_private(position, &placed->center);
     for (int k = 0; k < 3; ++k) load_vector_private(edge[k], &placed->edges[k]);
     load_vector_private(size, &placed->error);
-    scale3(32.0f * ROUNDOFF, &placed->error);
+    scale3(72.0f * ROUNDOFF, &placed->error);
 }
 
 /// A frame along the edges as nearly as may be: the rotation in the matrix that has their directions for its columns.
@@ -86,7 +88,7 @@ INLINE void placed_frame(global const InstanceRecord* record, global const Obb* 
     if (dot3(&normal, &columns[2]) < 0.0f)
         for (int k = 0; k < 3; ++k) scale3(-1.0f, &columns[k]);
     const Frame matrix = {columns[0], columns[1], columns[2]};
-    // Where nothing is sheared this start is the rotation.
+    // Where nothing is sheared this start is the rotation; elsewhere any unit quaternion will do.
     Frame start = matrix;
     Quaternion q;
     orthonormalise(&start);

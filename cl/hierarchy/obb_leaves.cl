@@ -41,12 +41,14 @@ INLINE void triangle_frame(const Vector* p, const Vector* q, const Vector* r, Fr
     orthonormalise(frame);
 }
 
-/// Vertex k of the triangle at sorted position i.
-INLINE global const float* vertex_of(global const float* positions, global const uint* triangles, uint triangle, uint k) {
+/// Vertex k of a triangle.
+INLINE global const float* corner_of(global const float* positions, global const uint* triangles, uint triangle, uint k) {
     return positions + 3 * (size_t)triangles[3 * (size_t)triangle + k];
 }
 
-/// The leaves at the sorted positions of one slice: their boxes, what SORTED_POINTS and MOMENTS ask for beside them.
+/// The leaves at the sorted positions of one slice: their boxes; with SORTED_POINTS their `points`, see Nodes, and with MOMENTS
+/// their `moments`, BOXWOOD_MOMENT_FLOATS per node, which may be null otherwise.
+/// Before: aabbs of the leaves.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void triangle_leaves(global const uint* order, global const float* positions, global const uint* triangles,
                      global const Aabb* aabbs, global float* points, uint stride, global float* moments,
@@ -62,7 +64,7 @@ void triangle_leaves(global const uint* order, global const float* positions, gl
             const uint position = min(first + lane, end - 1);
             leaf[lane] = count + position;
             for (uint k = 0; k < 3; ++k) {
-                global const float* vertex = vertex_of(positions, triangles, order[position], k);
+                global const float* vertex = corner_of(positions, triangles, order[position], k);
                 for (uint axis = 0; axis < 3; ++axis) corner[3 * k + axis][lane] = vertex[axis];
             }
         }

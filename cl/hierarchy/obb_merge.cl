@@ -27,8 +27,7 @@
 INLINE real second_share(const uint* first, const uint* second, global const uint* far_ends, uint count) {
     float share[LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
-        const float a = first[lane] < count ? range_size(first[lane], far_ends) : 1;
-        const float b = second[lane] < count ? range_size(second[lane], far_ends) : 1;
+        const float a = node_size(first[lane], far_ends, count), b = node_size(second[lane], far_ends, count);
         share[lane] = b / (a + b);
     }
     return LOAD_LANES(share);
@@ -131,7 +130,9 @@ INLINE void cascade_axes(const Child* a, const Child* b, Frame* axes) {
 #endif
 
 /// The nodes level[first .. first + level_count - 1].
-/// Before: boxes (and moments) of all nodes of lower levels are done. After: those of these nodes.
+/// Before: aabbs of all nodes, boxes (MERGE 0: and moments) of all nodes of lower levels. After: those of these nodes.
+/// `points`, see Nodes, are read for MERGE 3, `errors` for 8 points, `moments` are read and written for MERGE 0; each may be null
+/// otherwise.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void merge_level(global const uint* level, uint level_first, uint level_count, uint slice,
                  global const uint2* children, global const uint* far_ends, global const Aabb* aabbs,

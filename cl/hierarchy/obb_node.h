@@ -68,13 +68,11 @@ INLINE void primitive_moments(const Vector* points, Moments* moments) {
     }
 }
 
-/// MOMENT_FLOATS per node, in the node's own space: mean, covariance, zeros.
-#define MOMENT_FLOATS 12
-
+/// BOXWOOD_MOMENT_FLOATS per node, in the node's own space: mean, covariance, zeros.
 INLINE void load_moments(global const float* base, const uint* index, Moments* moments) {
     real v[8], w[8];
-    load_rows8(base, MOMENT_FLOATS, index, v);
-    load_rows4(base + 8, MOMENT_FLOATS, index, w);
+    load_rows8(base, BOXWOOD_MOMENT_FLOATS, index, v);
+    load_rows4(base + 8, BOXWOOD_MOMENT_FLOATS, index, w);
     const Vector mean = {v[0], v[1], v[2]};
     const Symmetric covariance = {v[3], v[4], v[5], v[6], v[7], w[0]};
     moments->mean = mean;
@@ -85,8 +83,8 @@ INLINE void store_moments(const Moments* moments, global float* base, const uint
     const Symmetric* m = &moments->covariance;
     real v[8] = {moments->mean.x, moments->mean.y, moments->mean.z, m->xx, m->yy, m->zz, m->xy, m->xz};
     real w[8] = {m->yz, 0.0f, 0.0f, 0.0f};
-    store_rows8(v, base, MOMENT_FLOATS, index, count);
-    store_rows4(w, base + 8, MOMENT_FLOATS, index, count);
+    store_rows8(v, base, BOXWOOD_MOMENT_FLOATS, index, count);
+    store_rows4(w, base + 8, BOXWOOD_MOMENT_FLOATS, index, count);
 }
 
 /// Takes moments from the space of one node to that of another.

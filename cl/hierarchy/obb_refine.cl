@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Oriented boxes, a better frame for the large nodes, which hold most of the volume of a tree (dissertation 3.5 stops at
 // PCA). Of each node only the extreme points along fixed directions are kept, as in a k-DOP (Larsson and Kallberg 2011, for
-// their use), since the extremes of a node are among those of its children. A frame is then turned about one of its axes at
-// a time until the box around the extremes is smallest. The start is the better of the eigenvectors of their covariance and the
-// axes of the world.
+// their use), since the extremes of a node are among those of its children. A frame is then turned ROUNDS times about each of
+// its axes to where the box around the extremes is smallest. The start is the better of the eigenvectors of their covariance and
+// the axes of the world.
 //
 //   refined_nodes  which nodes have at least SMALLEST primitives
 //   refined_slots  lists them
@@ -18,8 +18,7 @@
 #include "hierarchy/obb_node.h"
 #include "runtime/handoff.h"
 
-#define DIRECTIONS 16
-#define EXTREMES (2 * DIRECTIONS)
+#define EXTREMES BOXWOOD_EXTREMES // two for each direction
 // Turns about each of the three axes.
 #define ROUNDS 2
 
@@ -27,7 +26,7 @@
 #define SAMPLES (POINTS_PER_PRIMITIVE == 3 ? 1 : POINTS_PER_PRIMITIVE)
 
 // The axes of a cube through its faces, edges and corners, and three more to fill two vectors; no direction is farther than
-// 23 degrees from one of them or its opposite. Their lengths do not matter.
+// 28 degrees from one of them or its opposite. Their lengths do not matter.
 #define DIRECTIONS_X (float16)(1, 0, 0, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 0, 2, 1)
 #define DIRECTIONS_Y (float16)(0, 1, 0, 1, -1, 0, 0, 1, 1, 1, 1, -1, -1, 1, 0, 2)
 #define DIRECTIONS_Z (float16)(0, 0, 1, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 2, 1, 0)
@@ -56,10 +55,6 @@ INLINE void add_end(const Nodes* nodes, const Space* space, uint point, Ends* en
     ends->highest = select(ends->highest, (uint16)(point), higher);
 }
 
-INLINE uint node_size(uint node, global const uint* far_ends, uint count) {
-    return node < count ? range_size(node, far_ends) : 1;
-}
-
 /// What the walk over the nodes needs.
 typedef struct Extremes {
     Nodes nodes;
@@ -69,7 +64,7 @@ typedef struct Extremes {
     global uint* points;           ///< EXTREMES for each slot.
 } Extremes;
 
-/// Takes in the points below a child: its extremes, when it has any, else all of them.
+/// Takes in what is kept of the points below a child: its extremes, or SAMPLES points of each primitive when it has none.
 INLINE void add_child(const Extremes* data, const Space* space, uint child, Ends* ends) {
     if (node_size(child, data->far_ends, data->nodes.count) >= SMALLEST) {
         global const uint* source = data->points + EXTREMES * (size_t)data->slots[child];
@@ -119,7 +114,7 @@ void refined_slots(global const uint* refined, global const uint* slots, global 
 }
 
 /// extremes, see Extremes. Work begins at the nodes of one slice of slots that have no refined child, and goes up from there.
-/// Before: arrivals, one per slot, are 0.
+/// Before: aabbs of all nodes, the sorted points; arrivals, one per slot, are 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void node_extremes(global const uint2* children, global const uint* parents, global const uint* far_ends,
                    global handoff_t* arrivals, global const Aabb* aabbs, global const float* points, uint stride,
@@ -233,28 +228,27 @@ static void refine(const Vector* points, const float8* steps, Frame* axes) {
     orthonormalise(axes);
 }
 
-/// The axes of the nodes of one slice of slots.
+/// The axes of the node of slot i, and only these of its box. Before: all extremes, and the sorted points that
+/// they name.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void refine_frames(global const uint* slot_nodes, global const Aabb* aabbs, global const float* points, uint stride,
-                   global const uint* extremes, global Obb* boxes, uint count, uint slot_count, uint slice) {
-    const uint begin = (uint)get_global_id(0) * slice;
-    const uint end = begin < slot_count ? min(begin + slice, slot_count) : begin;
-    const Nodes nodes = {aabbs, points, stride, 0, count};
-    // In half turns: steps of a sixteenth of a quarter turn's half about 0, then of an eighth of that, to both sides.
+                   global const uint* extremes, global Obb* boxes, uint slot_count) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= slot_count) return;
+    const Nodes nodes = {aabbs, points, stride, 0, 0};
+    // In half turns: steps of a sixteenth (11.25 degrees) about 0, then of an eighth of that, to both sides.
     const float8 coarse = (float8)(-4, -3, -2, -1, 0, 1, 2, 3) / 16.0f, fine = (float8)(-4, -3, -2, -1, 1, 2, 3, 4) / 128.0f;
     const float8 steps[4] = {cospi(coarse), sinpi(coarse), cospi(fine), sinpi(fine)};
-    for (uint i = begin; i < end; ++i) {
-        const uint node = slot_nodes[i];
-        Space space;
-        space_of(aabbs, &node, &space);
-        Vector extreme[EXTREMES];
-        for (uint k = 0; k < EXTREMES; ++k)
-            load_space_point(&nodes, &space, extremes[EXTREMES * (size_t)i + k], &extreme[k]);
-        Frame axes, straight;
-        covariance_axes(extreme, &axes);
-        identity_frame(&straight);
-        if (box_measure(extreme, &straight) < box_measure(extreme, &axes)) axes = straight;
-        refine(extreme, steps, &axes);
-        store_frame(&axes, boxes, &node, 1);
-    }
+    const uint node = slot_nodes[i];
+    Space space;
+    space_of(aabbs, &node, &space);
+    Vector extreme[EXTREMES];
+    for (uint k = 0; k < EXTREMES; ++k)
+        load_space_point(&nodes, &space, extremes[EXTREMES * (size_t)i + k], &extreme[k]);
+    Frame axes, straight;
+    covariance_axes(extreme, &axes);
+    identity_frame(&straight);
+    if (box_measure(extreme, &straight) < box_measure(extreme, &axes)) axes = straight;
+    refine(extreme, steps, &axes);
+    store_frame(&axes, boxes, &node, 1);
 }

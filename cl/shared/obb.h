@@ -3,6 +3,10 @@
 #define BOXWOOD_SHARED_OBB_H
 #include "shared/types.h"
 
+// Floats that a node's moments take while boxes are fitted, and extreme points kept of a refined node.
+#define BOXWOOD_MOMENT_FLOATS 12
+#define BOXWOOD_EXTREMES 32
+
 BOXWOOD_SHARED_BEGIN
 
 /// Oriented bounding box, closed: the points p with |axis_k . (p - center)| <= extent[k] for k = 0, 1, 2, the axes being the

@@ -57,7 +57,9 @@ void run(const Arguments& arguments) {
 Command add_build(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("build", "Build the tree of a scene and write both to a .bxw file");
     const auto arguments = std::make_shared<Arguments>();
-    app->add_option("SCENE", arguments->scene, "glTF 2.0 scene (.gltf or .glb)")->required()->type_name("");
+    app->add_option("SCENE", arguments->scene, "glTF 2.0 scene, or .bxw file, of which only the scene is used")
+        ->required()
+        ->type_name("");
     app->add_option("-o,--output", arguments->output, "File to write (.bxw)")->required();
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");

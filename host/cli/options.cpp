@@ -52,6 +52,10 @@ void BuildChoice::check() const {
         throw UsageError(
             "--layout wide8 holds axis-aligned boxes only: leave it out, or use --layout binary, with --bounds " +
             std::string(name(options.bounds.kind)));
+    if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
+        throw UsageError("--extents corners is of use with --bounds obb-moments only");
+    if (options.bounds.measure == Measure::area && options.bounds.kind == Bounds::aabb)
+        throw UsageError("--measure area chooses between oriented and axis-aligned boxes: add --bounds KIND");
 }
 
 CLI::Option* add_levels(CLI::App& command, BuildOptions& options) {

@@ -72,7 +72,9 @@ Command add_quality(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("quality", "Compare the kinds of bounding volumes on one scene");
     const auto arguments = std::make_shared<Arguments>();
     QualityChoice& choice = arguments->choice;
-    app->add_option("SCENE", arguments->scene, "glTF 2.0 scene (.gltf or .glb)")->required()->type_name("");
+    app->add_option("SCENE", arguments->scene, "glTF 2.0 scene, or .bxw file, of which only the scene is used")
+        ->required()
+        ->type_name("");
     std::vector<std::string> words{"all"};
     for (std::string& word : bounds_words()) words.push_back(std::move(word));
     choice.words = {"all"};

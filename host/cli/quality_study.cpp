@@ -80,8 +80,9 @@ std::vector<KindResult> kinds_of(const QualityChoice& choice) {
     for (const Bounds bounds : all_bounds()) {
         const std::string word(name(bounds));
         if (bounds != Bounds::aabb && !wanted(word)) continue;
-        kinds.push_back(new_kind(choice, bounds, choice.options.bounds.extents, word));
-        if (bounds == Bounds::obb_moments && !choice.extents_given)
+        const bool corners = bounds == Bounds::obb_moments && choice.options.bounds.extents == Extents::corners;
+        if (!corners) kinds.push_back(new_kind(choice, bounds, Extents::exact, word));
+        if (corners || (bounds == Bounds::obb_moments && !choice.extents_given))
             kinds.push_back(new_kind(choice, bounds, Extents::corners, word + "-corners"));
     }
     return kinds;

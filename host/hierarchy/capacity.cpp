@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
+#include <string>
 
 #include "boxwood/error.hpp"
+#include "hierarchy/obb_kinds.hpp"
 #include "shared/aabb.h"
 #include "shared/instance.h"
 #include "shared/obb.h"
@@ -15,6 +18,17 @@ namespace {
 
 /// Node indices (two per primitive) and a mark share 32 bits.
 constexpr std::uint64_t most_primitives = (1u << 30) - 1;
+
+/// Elements of one buffer.
+constexpr std::uint64_t most_elements = std::numeric_limits<std::int32_t>::max();
+
+/// The vertices of all triangles in sorted order, while oriented boxes are fitted.
+std::uint64_t sorted_bytes(Bounds bounds, std::uint64_t triangles) { return reads_points(bounds) ? 36 * triangles : 0; }
+
+/// The moments of all nodes.
+std::uint64_t moment_bytes(Bounds bounds, std::uint64_t triangles) {
+    return bounds == Bounds::obb_moments ? 2 * sizeof(float) * BOXWOOD_MOMENT_FLOATS * triangles : 0;
+}
 
 struct Need {
     const char* what;
@@ -36,10 +50,16 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
         if (primitives > most_primitives)
             throw CapacityError("primitives in one level of a tree", primitives, most_primitives);
 
+    for (const std::uint64_t bytes : {sorted_bytes(bounds, triangles), moment_bytes(bounds, triangles)})
+        if (bytes / sizeof(float) > most_elements)
+            throw CapacityError("floats in one array of a build with " + std::string(name(bounds)),
+                                bytes / sizeof(float), most_elements);
+
     const bool oriented = bounds != Bounds::aabb;
     const std::uint64_t positions = 12 * vertices, indices = 12 * triangles;
     const std::uint64_t volumes = 2 * sizeof(Aabb) * triangles, topology = 24 * triangles;
-    const std::uint64_t boxes = oriented ? 2 * sizeof(Obb) * triangles : 0, sorted = oriented ? 36 * triangles : 0;
+    const std::uint64_t boxes = oriented ? 2 * sizeof(Obb) * triangles : 0, sorted = sorted_bytes(bounds, triangles);
+    const std::uint64_t moments = moment_bytes(bounds, triangles);
     const std::uint64_t binary_nodes = (oriented ? sizeof(OrientedNode) : sizeof(BinaryNode)) * triangles;
     const std::uint64_t records = sizeof(Triangle) * triangles;
     const std::uint64_t costs = 32 * triangles, blocks = sizeof(Triangle4) * (triangles / 4);
@@ -49,6 +69,8 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
                         {"triangle indices", indices},
                         {"boxes of nodes", volumes},
                         {"oriented boxes of nodes", boxes},
+                        {"sorted points", sorted},
+                        {"moments of nodes", moments},
                         {"instances", placed},
                         {"boxes of the top level", top}});
     if (layout == Layout::binary)
@@ -59,7 +81,8 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     // What is held at once at the least: while the oriented boxes are fitted to the sorted vertices, or while the layout
     // is written from topology and volumes.
     const std::uint64_t result = layout == Layout::binary ? binary_nodes + records : blocks;
-    const std::uint64_t least = positions + indices + volumes + boxes + topology + placed + std::max(sorted, result);
+    const std::uint64_t least =
+        positions + indices + volumes + boxes + topology + placed + std::max(sorted + moments, result);
     const std::uint64_t available =
         device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
     if (least > available)

@@ -3,6 +3,7 @@
 #include "boxwood/scan.hpp"
 #include "boxwood/volumes.hpp"
 #include "hierarchy/node_levels.hpp"
+#include "hierarchy/obb_kinds.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
@@ -32,20 +33,20 @@ struct Fit {
     Buffer<Obb> boxes;
 };
 
+/// `extra` are the kernel's own macros, and those that it has otherwise than the rest.
 KernelRef kernel_of(const Fit& fit, const char* file, const char* name, Defines extra = {}) {
-    Defines defines{{"LANES", fit.device.info().cpu ? "8" : "1"},
-                    {"POINTS_PER_PRIMITIVE", std::to_string(fit.points_per_primitive)},
-                    {"MEASURE_AREA", fit.options.measure == Measure::area ? "1" : "0"},
-                    {"FALLBACK", fit.options.fallback ? "1" : "0"}};
-    defines.merge(extra);
-    return {file, name, std::move(defines)};
+    extra.merge(Defines{{"LANES", fit.device.info().cpu ? "8" : "1"},
+                        {"POINTS_PER_PRIMITIVE", std::to_string(fit.points_per_primitive)},
+                        {"MEASURE_AREA", fit.options.measure == Measure::area ? "1" : "0"},
+                        {"FALLBACK", fit.options.fallback ? "1" : "0"}});
+    return {file, name, std::move(extra)};
 }
 
 const char* flag(bool value) { return value ? "1" : "0"; }
 
 void fit_triangles(Fit& fit, const Geometry& geometry) {
     const Bounds kind = fit.options.kind;
-    const bool needs_points = kind != Bounds::obb_boxes && kind != Bounds::obb_quaternion;
+    const bool needs_points = reads_points(kind);
     const KernelRef kernel =
         kernel_of(fit, "hierarchy/obb_leaves.cl", "triangle_leaves",
                   {{"SORTED_POINTS", flag(needs_points)}, {"MOMENTS", flag(kind == Bounds::obb_moments)}});
@@ -75,12 +76,14 @@ void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool ex
     });
 }
 
-/// Axes of the nodes with up to `longest` primitives by the covariance of their points; of all when there are no longer ones.
-/// The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to five digits (bunny, dragon).
+/// Pass "0": the axes of nodes by the covariance of their points, "1": their boxes along these; of all nodes, or of those with up
+/// to `longest` primitives. The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to five digits (bunny,
+/// dragon); small nodes have little volume, and 2 sweeps do for them alone.
 void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32_t longest = 0) {
     Device& device = fit.device;
     const std::uint32_t chunk = longest ? longest : longest_range;
-    const Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}, {"JACOBI_SWEEPS", longest ? "2" : "3"}};
+    Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}};
+    if (pass[0] == '0') extra["JACOBI_SWEEPS"] = longest ? "2" : "3";
     const auto kernel = [&](const char* name) { return kernel_of(fit, "hierarchy/obb_ranges.cl", name, extra); };
     const Buffer<std::uint32_t> chunks = make_scratch<std::uint32_t>(device, fit.count, "chunks of nodes");
     const Slices slices = cut(device, fit.count);
@@ -109,10 +112,8 @@ std::uint32_t smallest_refined(const Fit& fit) {
 void refine_frames(Fit& fit) {
     Device& device = fit.device;
     const auto kernel = [&](const char* name) {
-        KernelRef reference =
-            kernel_of(fit, "hierarchy/obb_refine.cl", name, {{"SMALLEST", std::to_string(smallest_refined(fit))}});
-        reference.defines["LANES"] = "1";
-        return reference;
+        return kernel_of(fit, "hierarchy/obb_refine.cl", name,
+                         {{"SMALLEST", std::to_string(smallest_refined(fit))}, {"LANES", "1"}});
     };
     const Buffer<std::uint32_t> refined = make_scratch<std::uint32_t>(device, fit.count, "refined nodes");
     const Buffer<std::uint32_t> slots = make_scratch<std::uint32_t>(device, fit.count, "slots of refined nodes");
@@ -124,7 +125,7 @@ void refine_frames(Fit& fit) {
         download_element(device, slots, fit.count - 1) + download_element(device, refined, fit.count - 1);
     if (total == 0) return;
     const Buffer<std::uint32_t> extremes =
-        make_scratch<std::uint32_t>(device, std::size_t{32} * total, "extreme points of nodes");
+        make_scratch<std::uint32_t>(device, std::size_t{BOXWOOD_EXTREMES} * total, "extreme points of nodes");
     const Buffer<std::uint32_t> slot_nodes = make_scratch<std::uint32_t>(device, total, "nodes of slots");
     const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, total, "arrivals at nodes");
     fill<std::uint32_t>(device, arrivals, 0);
@@ -136,11 +137,8 @@ void refine_frames(Fit& fit) {
            total, parts.length);
     // Few nodes and much work for each: one per work-item.
     launch(device, kernel("refine_frames"), "refined frames", total, slot_nodes, fit.aabbs, fit.points, fit.stride,
-           extremes, fit.boxes, fit.count, total, 1u);
+           extremes, fit.boxes, total);
 }
-
-/// Whether nodes are merged from their children, one level after the other.
-bool works_by_levels(Bounds kind) { return kind != Bounds::obb_points && kind != Bounds::obb_refined; }
 
 /// levels: of all inner nodes; empty for kinds that do not work by levels.
 void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
@@ -163,7 +161,8 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
         if (fit.options.extents == Extents::exact) pass_over_ranges(fit, "1", "extents");
         break;
     case Bounds::obb_refined:
-        pass_over_ranges(fit, "0", "covariances", smallest_refined(fit) - 1);
+        // The smallest inner nodes have two primitives.
+        if (smallest_refined(fit) > 2) pass_over_ranges(fit, "0", "covariances", smallest_refined(fit) - 1);
         refine_frames(fit);
         pass_over_ranges(fit, "1", "extents");
         break;
@@ -174,20 +173,21 @@ void fit_inner_nodes(Fit& fit, const NodeLevels& levels) {
 
 Buffer<float> make_moments(Device& device, std::uint32_t count, Bounds kind) {
     if (kind != Bounds::obb_moments) return {};
-    return make_scratch<float>(device, 24 * std::size_t{count}, "moments of nodes");
+    return make_scratch<float>(device, 2 * std::size_t{BOXWOOD_MOMENT_FLOATS} * count, "moments of nodes");
 }
 
 Fit make_fit(Device& device, const Topology& topology, BufferView<const Aabb> aabbs, const BoundsOptions& options,
              std::uint32_t points_per_primitive) {
     const auto count = static_cast<std::uint32_t>(topology.size());
     const std::uint32_t stride = points_per_primitive * count + padding;
+    const bool needs_points = points_per_primitive == 8 || reads_points(options.kind);
     return {device,
             topology,
             aabbs,
             options,
             points_per_primitive,
             count,
-            make_scratch<float>(device, 3 * std::size_t{stride}, "sorted points"),
+            needs_points ? make_scratch<float>(device, 3 * std::size_t{stride}, "sorted points") : Buffer<float>{},
             stride,
             {},
             make_moments(device, count, options.kind),
@@ -210,10 +210,8 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
     Fit fit = make_fit(device, topology, aabbs, options, 8);
     fit.errors = make_scratch<float>(device, 8 * std::size_t{fit.count}, "errors of corners");
     const auto kernel = [&](const char* kernel_name) {
-        KernelRef reference = kernel_of(fit, "hierarchy/obb_instances.cl", kernel_name);
-        reference.defines["LANES"] = "1";
-        reference.defines["MOMENTS"] = flag(options.kind == Bounds::obb_moments);
-        return reference;
+        return kernel_of(fit, "hierarchy/obb_instances.cl", kernel_name,
+                         {{"LANES", "1"}, {"MOMENTS", flag(options.kind == Bounds::obb_moments)}});
     };
     launch(device, kernel("instance_leaves"), "leaf boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
            fit.points, fit.stride, fit.errors, fit.moments, fit.boxes, fit.count);

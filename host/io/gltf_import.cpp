@@ -78,8 +78,7 @@ private:
             return;
         }
         const glm::mat4 transform(to_world);
-        std::string_view fault = transform_fault(transform);
-        if (fault.empty() && !stays_in_range(transform, bounds_[*mesh])) fault = "moves the mesh out of range";
+        const std::string_view fault = placement_fault(transform, bounds_[*mesh]);
         if (!fault.empty()) {
             ++scene_.counts.dropped_instances;
             return warnings_.add(element("nodes", placed.node),

@@ -14,7 +14,7 @@ enum class Bounds {
     obb_quaternion, ///< Half-way rotation between the children, extents from their 16 corners.
     obb_cascade,    ///< Points over leaves, corners and points over one leaf, quaternion above (the proposal of 3.5).
     obb_moments,    ///< PCA by merging the children's moments: the orientation of obb_points, O(1) per node.
-    obb_refined,    ///< obb_points, the axes of large nodes turned until the box is smallest.
+    obb_refined,    ///< obb_points; large nodes by a search for a small box around their extremes.
 };
 
 /// Where the extents of obb_moments come from; the other kinds have their own.

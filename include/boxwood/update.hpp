@@ -14,7 +14,8 @@ namespace boxwood {
 /// A tree that follows an animated scene (dissertation 3.1.4): it keeps what an update needs beside the tree, positions,
 /// triangles and topology on the device. Every update leaves tree() as valid as a new build of the scene as it then is;
 /// hits may differ in rounding only. Whatever an update throws, tree() and scene() are then as they were, for which the old
-/// and the new of what changes are held at once. Updates throw InputError as said, and what build() throws. With no
+/// and the new of what changes are held at once. Updates throw InputError as said, and what build() throws,
+/// which may come in the middle and leaves tree and scene as they were. With no
 /// instances there is no tree, and updates change the scene alone.
 class AnimatedTree {
 public:
@@ -34,8 +35,8 @@ public:
     void move_instances(const std::vector<glm::mat4>& transforms);
 
     /// A linear deformation M_d of a mesh, M_m M_d: every instance of it takes `map` before its own transform, in double
-    /// and rounded once, and the top level is rebuilt; the bottom level stays. Throws as move_instances does.
-    /// O(instances).
+    /// and rounded once, and the top level is rebuilt; the bottom level stays. Throws InputError when
+    /// there is no such mesh, and as move_instances does. O(instances).
     void deform(std::uint32_t mesh, const glm::mat4& map);
 
     /// New positions of the vertices of a mesh: the volumes are fitted again over the same topology, and the top level is

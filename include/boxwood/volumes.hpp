@@ -15,10 +15,10 @@ namespace boxwood {
 Buffer<Aabb> aabb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> boxes);
 
 /// The oriented box of every node of trees over the triangles of `geometry`: 2n boxes by node index, those of unused
-/// slots empty, bottom-up with one launch per level (dissertation 3.5). `aabbs` as from aabb_volumes over the same
+/// slots empty (dissertation 3.5). Kinds that merge children take one launch per level. `aabbs` as from aabb_volumes over the same
 /// topology. Every box holds every vertex below it: extents are padded by a bound on their rounding. `options.kind` is not
 /// aabb. Kinds with exact extents take O(n depth) work, spread evenly over work-items whatever the shape of the tree;
-/// the others O(n). Throws CapacityError before the work when it does not fit.
+/// the others O(n). Throws CapacityError when it does not fit.
 Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
                         const Geometry& geometry, const BoundsOptions& options);
 

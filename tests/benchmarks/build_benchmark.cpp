@@ -36,11 +36,16 @@ double build_ms(Device& device, const Scene& scene) {
     return report.total_ms - report.upload_ms;
 }
 
-int run() {
-    Device device;
+int run(int argc, char** argv) {
+    CLI::App app("Times builds of many small meshes beside one large one.");
+    benchmarks::Arguments arguments;
+    benchmarks::add_arguments(app, arguments);
+    CLI11_PARSE(app, argc, argv);
+
+    Device device(arguments.device);
     const Scene many = make_scene(1000, 100), one = make_scene(1, 100'000);
     std::vector<double> many_ms, one_ms;
-    for (int round = -1; round < 9; ++round) {
+    for (int round = -1; round < arguments.rounds; ++round) {
         const double first = build_ms(device, many), second = build_ms(device, one);
         if (round < 0) continue; // warms
         many_ms.push_back(first);
@@ -50,10 +55,14 @@ int run() {
     std::printf("1,000 meshes of 100 triangles  %8.2f ms\n", median(many_ms));
     std::printf("1 mesh of 100,000 triangles    %8.2f ms\n", median(one_ms));
     std::printf("ratio                          %8.2f\n", median(many_ms) / median(one_ms));
+    benchmarks::save_report(arguments, device.info(), {{"many", median(many_ms)}, {"one", median(one_ms)}},
+                            {{"many_against_one", median(many_ms) / median(one_ms)}});
     return 0;
 }
 
 } // namespace
 } // namespace boxwood
 
-int main() { return boxwood::benchmarks::guarded("boxwood-benchmark-build", boxwood::run); }
+int main(int argc, char** argv) {
+    return boxwood::benchmarks::guarded("boxwood-benchmark-build", [&] { return boxwood::run(argc, argv); });
+}

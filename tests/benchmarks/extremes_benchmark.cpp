@@ -12,15 +12,13 @@
 #include "boxwood/volumes.hpp"
 #include "hierarchy/forest.hpp"
 #include "oracles/extreme_meshes.hpp"
+#include "oracles/triangle_box.hpp"
 #include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {
 
 constexpr std::size_t triangles = 20000;
-constexpr int rounds = 7;
-constexpr Bounds kinds[] = {Bounds::obb_points,  Bounds::obb_boxes,   Bounds::obb_quaternion,
-                            Bounds::obb_cascade, Bounds::obb_moments, Bounds::obb_refined};
 
 struct Case {
     test::ExtremeMesh extreme;
@@ -28,10 +26,11 @@ struct Case {
     Forest forest;
 };
 
-Aabb box_of(const Mesh& mesh, const glm::uvec3& triangle) {
-    const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
-    const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+/// Every kind but the control.
+std::vector<Bounds> oriented_kinds() {
+    std::vector<Bounds> kinds = all_bounds();
+    std::erase(kinds, Bounds::aabb);
+    return kinds;
 }
 
 Case prepare(Device& device, test::ExtremeMesh extreme) {
@@ -39,7 +38,7 @@ Case prepare(Device& device, test::ExtremeMesh extreme) {
     scene.instances.push_back({.name = "", .mesh = 0});
     scene.meshes.push_back(extreme.mesh);
     std::vector<Aabb> boxes;
-    for (const glm::uvec3& triangle : extreme.mesh.triangles) boxes.push_back(box_of(extreme.mesh, triangle));
+    for (const glm::uvec3& triangle : extreme.mesh.triangles) boxes.push_back(test::box_of(extreme.mesh, triangle));
     Case made{std::move(extreme), upload(device, scene), {}};
     made.forest = build_forest(device, upload(device, boxes, "boxes"), {0, static_cast<std::uint32_t>(boxes.size())},
                                MortonBits::bits30);
@@ -92,8 +91,14 @@ Errors errors_of(Device& device, const Case& one, Bounds kind) {
     return errors;
 }
 
-int run() {
-    Device device;
+int run(int argc, char** argv) {
+    CLI::App app("Times oriented boxes over meshes at the extremes, and checks what they hold.");
+    benchmarks::Arguments arguments;
+    benchmarks::add_arguments(app, arguments);
+    CLI11_PARSE(app, argc, argv);
+
+    Device device(arguments.device);
+    const std::vector<Bounds> kinds = oriented_kinds();
     std::vector<Case> cases;
     for (test::ExtremeMesh& extreme : test::extreme_meshes(triangles, 1))
         cases.push_back(prepare(device, std::move(extreme)));
@@ -103,11 +108,10 @@ int run() {
     for (const Bounds kind : kinds) std::printf(" %10s", std::string(name(kind)).substr(4).c_str());
     std::printf("\n");
 
-    std::vector<std::vector<std::vector<double>>> times(cases.size(),
-                                                        std::vector<std::vector<double>>(std::size(kinds)));
-    for (int round = -1; round < rounds; ++round)
+    std::vector<std::vector<std::vector<double>>> times(cases.size(), std::vector<std::vector<double>>(kinds.size()));
+    for (int round = -1; round < arguments.rounds; ++round)
         for (std::size_t i = 0; i < cases.size(); ++i)
-            for (std::size_t k = 0; k < std::size(kinds); ++k) {
+            for (std::size_t k = 0; k < kinds.size(); ++k) {
                 const double ms = fit_ms(device, cases[i], kinds[k]);
                 if (round >= 0) times[i][k].push_back(ms); // the first warms
             }
@@ -121,7 +125,7 @@ int run() {
         }
         outside += worst.outside;
         std::printf("%-28s %8zu %8.1e", cases[i].extreme.words.c_str(), worst.outside, worst.excess);
-        for (std::size_t k = 0; k < std::size(kinds); ++k)
+        for (std::size_t k = 0; k < kinds.size(); ++k)
             std::printf(" %10.2f", median(times[i][k]) / median(times[0][k]));
         std::printf("\n");
     }
@@ -131,4 +135,6 @@ int run() {
 } // namespace
 } // namespace boxwood
 
-int main() { return boxwood::benchmarks::guarded("boxwood-benchmark-extremes", boxwood::run); }
+int main(int argc, char** argv) {
+    return boxwood::benchmarks::guarded("boxwood-benchmark-extremes", [&] { return boxwood::run(argc, argv); });
+}

@@ -89,7 +89,7 @@ TEST_CASE("quality: kinds and levels as asked for") {
     const Tool tool;
     tool.succeed("scene forest --instances 20 -o forest.glb");
     const Json some = quality(tool, "forest.glb --bounds obb-moments,obb-boxes --extents corners --measure area");
-    CHECK(keys_of(some["kinds"]) == Names{"aabb", "obb-boxes", "obb-moments"});
+    CHECK(keys_of(some["kinds"]) == Names{"aabb", "obb-boxes", "obb-moments-corners"});
     CHECK(some["options"]["measure"] == "area");
     CHECK(some["requirements"] == Json{"two-levels", "statistics"});
     // Several meshes, levels by need: both are built and set side by side.

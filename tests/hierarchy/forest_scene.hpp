@@ -9,6 +9,7 @@
 #include "boxwood/tree_image.hpp"
 #include "hierarchy/forest.hpp"
 #include "oracles/tree_checker.hpp"
+#include "oracles/triangle_box.hpp"
 #include "support.hpp"
 
 namespace boxwood::test {
@@ -34,12 +35,6 @@ inline Scene scene_of(std::vector<Mesh> meshes) {
     scene.meshes = std::move(meshes);
     for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) scene.instances.push_back({"", i, glm::mat4(1.0f)});
     return scene;
-}
-
-inline Aabb box_of(const Mesh& mesh, const glm::uvec3& triangle) {
-    const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y], c = mesh.positions[triangle.z];
-    const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
 }
 
 /// The same bytes in both.

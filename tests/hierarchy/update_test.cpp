@@ -22,7 +22,7 @@ std::vector<BuildOptions> two_level_options() {
     std::vector<BuildOptions> all;
     for (const Layout layout : {Layout::wide8, Layout::binary}) all.push_back({Levels::two, layout});
     all.push_back({.levels = Levels::two, .bounds = {.kind = Bounds::obb_moments}});
-    if (!small_sizes()) all.push_back({.levels = Levels::two, .bounds = {.kind = Bounds::obb_points}});
+    if (!small_sizes()) all.push_back({.levels = Levels::two, .bounds = {.kind = Bounds::obb_refined}});
     return all;
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("update: input that cannot be used is refused, and leaves tree and sce
     bad = glm::mat4(1.0f);
     bad[0][3] = 0.5f;
     refuse_transform(bad);
-    // Good by itself, but it moves the second mesh (instances 1 and 3) out of range, or makes the products singular.
+    // Good by itself, but it moves the second mesh (instances 1 and 3) out of range.
     bad = glm::mat4(1.0f);
     bad[3][0] = 2.0f * largest_coordinate;
     check_refused(animated, "instances[1].transform", [&] { animated.deform(1, bad); });
