@@ -14,9 +14,8 @@ namespace boxwood {
 /// A tree that follows an animated scene (dissertation 3.1.4): it keeps what an update needs beside the tree, positions,
 /// triangles and topology on the device. Every update leaves tree() as valid as a new build of the scene as it then is;
 /// hits may differ in rounding only. Whatever an update throws, tree() and scene() are then as they were, for which the old
-/// and the new of what changes are held at once. Updates throw InputError as said, and what build() throws,
-/// which may come in the middle and leaves tree and scene as they were. With no
-/// instances there is no tree, and updates change the scene alone.
+/// and the new of what changes are held at once. Updates throw InputError as said, and what build() throws, which
+/// may come in the middle of the work. With no instances there is no tree, and updates change the scene alone.
 class AnimatedTree {
 public:
     /// Builds as build() does. The scene, which must be valid, is kept; the device must outlive this.
