@@ -12,9 +12,9 @@
 #endif
 
 inline Ray pixel_ray(global const CameraRecord* camera, int x, int y) {
-    // Odd integers below 2^24: exact, and exactly opposite on opposite sides of the picture.
-    const float across = (float)(2 * x + 1 - (int)camera->width);
-    const float upward = (float)((int)camera->height - 2 * y - 1);
+    // Odd integers below 2^24 but for the jitter: exact, and exactly opposite on opposite sides of the picture.
+    const float across = (float)(2 * x + 1 - (int)camera->width) + camera->jitter[0];
+    const float upward = (float)((int)camera->height - 2 * y - 1) + camera->jitter[1];
     const float3 offset = across * vload3(0, camera->right) + upward * vload3(0, camera->up);
     float3 origin = vload3(0, camera->origin);
     float3 direction = vload3(0, camera->forward);
@@ -32,14 +32,15 @@ inline Ray pixel_ray(global const CameraRecord* camera, int x, int y) {
     return ray;
 }
 
-/// rays[y * width + x] = the ray through the centre of pixel (x, y). A work-item makes `length` consecutive rays of
-/// the `count`; `rays` has `count` = width * height elements. No barrier: work-items share nothing.
+/// rays[y * width + x - first] = the ray through pixel (x, y). A work-item makes `length` consecutive rays of the `count`;
+/// `rays` has `count` <= width * height - first elements. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-primary_rays(global const CameraRecord* camera, uint count, uint length, global Ray* rays) {
+primary_rays(global const CameraRecord* camera, uint first, uint count, uint length, global Ray* rays) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        const uint y = (uint)i / camera->width;
-        rays[i] = pixel_ray(camera, (int)((uint)i - y * camera->width), (int)y);
+        const uint pixel = first + (uint)i;
+        const uint y = pixel / camera->width;
+        rays[i] = pixel_ray(camera, (int)(pixel - y * camera->width), (int)y);
     }
 }

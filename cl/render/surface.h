@@ -10,6 +10,7 @@
 typedef struct Surface {
     float3 point;
     float3 normal; ///< Geometric, normalised, on the side that the ray came from. Zero for a triangle without area.
+    bool front; ///< The ray met the side from which the vertices go around counter-clockwise, in object space.
     float clearance; ///< Distance along the normal that carries an origin off the triangle (see surface_clearance).
 } Surface;
 
@@ -80,6 +81,7 @@ inline Surface surface_at(global const float* positions, global const uint* tria
     Surface surface;
     surface.point = transform_point(instance->to_world, v0 + (hit.u * edge1 + hit.v * edge2));
     surface.normal = side > 0.0f ? -normal : normal;
+    surface.front = !(side > 0.0f);
     surface.clearance = surface_clearance(instance, fmax(fmax(fabs(v0), fabs(v1)), fabs(v2)), normal);
     return surface;
 }

@@ -2,6 +2,7 @@
 // Everything public.
 #pragma once
 
+#include "boxwood/appearance.hpp"
 #include "boxwood/bounds.hpp"
 #include "boxwood/buffer.hpp"
 #include "boxwood/build.hpp"
@@ -9,12 +10,14 @@
 #include "boxwood/collapse.hpp"
 #include "boxwood/compact.hpp"
 #include "boxwood/device.hpp"
+#include "boxwood/environment.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/gather.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/image.hpp"
 #include "boxwood/lbvh.hpp"
+#include "boxwood/material.hpp"
 #include "boxwood/morton.hpp"
 #include "boxwood/obb.hpp"
 #include "boxwood/operator.hpp"
@@ -25,6 +28,7 @@
 #include "boxwood/rays.hpp"
 #include "boxwood/reduce.hpp"
 #include "boxwood/render.hpp"
+#include "boxwood/render_options.hpp"
 #include "boxwood/requirements.hpp"
 #include "boxwood/scan.hpp"
 #include "boxwood/scatter.hpp"

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "boxwood/material.hpp"
 
 namespace boxwood {
 
@@ -13,11 +16,18 @@ namespace boxwood {
 inline constexpr float largest_coordinate = 1152921504606846976.0f; // 2^60
 
 /// An indexed triangle mesh in object space. Every position is finite and within largest_coordinate, every index is
-/// below positions.size(), and there is at least one triangle.
+/// below positions.size(), and there is at least one triangle. `materials` is empty (all plain) or has one element per
+/// triangle. An attribute is empty or has one finite element per vertex; what is missing is made up where it is needed: the
+/// triangle's own normal, tangents from the texture coordinates, white.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
+    std::vector<std::uint32_t> materials{}; ///< Per triangle, into Scene::materials; BOXWOOD_NONE: plain_material().
+    std::vector<glm::vec3> normals{};       ///< Normalised, or zero for none.
+    std::vector<glm::vec4> tangents{};      ///< Normalised or zero; w = 1 or -1: bitangent = w cross(normal, tangent).
+    std::array<std::vector<glm::vec2>, 2> uvs{};
+    std::vector<glm::vec4> colors{}; ///< Linear, alpha last; multiply the base colour.
 };
 
 /// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float.
@@ -48,6 +58,10 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Camera> cameras;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<EncodedImage> images;
+    std::vector<Light> lights;
     ImportCounts counts;
     std::vector<std::string> warnings; ///< One line each, naming the element.
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What shading kernels share: macros and arguments (cl/render/scene_arrays.h).
+#pragma once
+
+#include "boxwood/appearance.hpp"
+#include "boxwood/geometry.hpp"
+#include "runtime/launch.hpp"
+
+namespace boxwood {
+
+/// The macros of cl/render/scene_arrays.h.
+Defines scene_defines(const ShadingRequirements& requirements);
+
+/// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
+template <class... Arguments>
+void launch_shading(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
+                    const Geometry& geometry, const Appearance& appearance, const Arguments&... arguments) {
+    launch(device, kernel, label, work_items, geometry.positions, geometry.triangles, geometry.meshes,
+           geometry.instances, appearance.attributes, appearance.triangle_materials, appearance.materials,
+           appearance.textures, appearance.texels, arguments...);
+}
+
+} // namespace boxwood

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// What shading reads of a scene, on a device.
+#pragma once
+
+#include "boxwood/buffer.hpp"
+#include "boxwood/requirements.hpp"
+#include "boxwood/scene.hpp"
+#include "shared/light.h"
+#include "shared/material.h"
+
+namespace boxwood {
+
+/// Attributes, materials, textures and lights of a scene. What the requirements do not name is an empty buffer, and programs
+/// made for them do not read it.
+struct Appearance {
+    ShadingRequirements requirements;
+    /// Interleaved, requirements.attribute_floats() per vertex in the order of Geometry::positions (dissertation 3.7.1): normal
+    /// (3), tangent (4), texture coordinates (2 and 2), colour (4), each where it is required.
+    Buffer<float> attributes;
+    Buffer<std::uint32_t> triangle_materials; ///< Per triangle of the Geometry, an index into `materials`.
+    Buffer<MaterialRecord> materials;         ///< Those of the scene, then the plain one.
+    Buffer<TextureRecord> textures;           ///< One for each (texture, sRGB or not) that some material reads.
+    Buffer<std::uint32_t> texels;
+    Buffer<LightRecord>
+        lights; ///< Punctual ones in scene order, then the triangles that emit, by instance and primitive.
+    Buffer<float>
+        light_distribution; ///< lights + 1 values from 0 to 1: light i is chosen with the difference after value i.
+};
+
+/// Decodes and uploads what `requirements` names. Lights are chosen by power: of a triangle the emission (of a texture its
+/// mean) times area, of a punctual light its intensity over the scene's size. A picture that cannot be decoded, or would pass
+/// 2^28 texels, is one grey texel, and a warning is added to `warnings`. Throws CapacityError, before anything is uploaded, when
+/// it does not fit. O(size of the scene).
+Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRequirements& requirements,
+                             std::vector<std::string>& warnings);
+
+} // namespace boxwood
