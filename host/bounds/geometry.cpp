@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/geometry.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <string>
 
 #include "boxwood/error.hpp"
+#include "runtime/capacity.hpp"
 
 namespace boxwood {
 
@@ -17,36 +16,6 @@ void store_rows(const glm::dmat3& linear, const glm::dvec3& translation, float (
         for (int c = 0; c < 3; ++c) rows[4 * r + c] = static_cast<float>(linear[c][r]);
         rows[4 * r + 3] = static_cast<float>(translation[r]);
     }
-}
-
-/// Throws CapacityError unless buffers of these sizes fit the device together.
-void check_capacity(Device& device, const Scene& scene) {
-    struct Need {
-        const char* label;
-        std::uint64_t count;
-        std::uint64_t element_bytes;
-    };
-    const Need needs[] = {{"positions", 3 * scene.vertex_count(), sizeof(float)},
-                          {"triangles", 3 * scene.triangle_count(), sizeof(std::uint32_t)},
-                          {"meshes", scene.meshes.size(), sizeof(MeshRange)},
-                          {"instances", scene.instances.size(), sizeof(InstanceRecord)}};
-    // The limits of make_buffer, asked for all arrays at once.
-    constexpr std::uint64_t most_elements = std::numeric_limits<std::int32_t>::max();
-    const DeviceInfo& info = device.info();
-    std::uint64_t total = 0;
-    for (const Need& need : needs) {
-        if (need.count > most_elements)
-            throw CapacityError(std::string("elements of ") + need.label, need.count, most_elements);
-        const std::uint64_t bytes = std::max<std::uint64_t>(need.count, 1) * need.element_bytes;
-        if (bytes > info.largest_buffer_bytes)
-            throw CapacityError("largest buffer of " + info.name + ", in bytes, for " + need.label, bytes,
-                                info.largest_buffer_bytes);
-        total += bytes;
-    }
-    if (device.held_bytes() + total > info.global_bytes) device.trim();
-    if (device.held_bytes() + total > info.global_bytes)
-        throw CapacityError("memory of " + info.name + ", in bytes, for the scene", device.held_bytes() + total,
-                            info.global_bytes);
 }
 
 std::vector<MeshRange> mesh_ranges(const Scene& scene) {
@@ -115,7 +84,11 @@ std::vector<InstanceRecord> instance_records(const Scene& scene) {
 }
 
 Geometry upload(Device& device, const Scene& scene) {
-    check_capacity(device, scene);
+    const BufferNeed needs[] = {{"positions", 3 * scene.vertex_count(), sizeof(float)},
+                                {"triangles", 3 * scene.triangle_count(), sizeof(std::uint32_t)},
+                                {"meshes", scene.meshes.size(), sizeof(MeshRange)},
+                                {"instances", scene.instances.size(), sizeof(InstanceRecord)}};
+    check_fits(device, needs, "the scene");
     const std::vector<InstanceRecord> records = instance_records(scene);
 
     Geometry geometry;

@@ -21,16 +21,17 @@ struct Appearance {
     Buffer<MaterialRecord> materials;         ///< Those of the scene, then the plain one.
     Buffer<TextureRecord> textures;           ///< One for each (texture, sRGB or not) that some material reads.
     Buffer<std::uint32_t> texels;
-    Buffer<LightRecord>
-        lights; ///< Punctual ones in scene order, then the triangles that emit, by instance and primitive.
-    Buffer<float>
-        light_distribution; ///< lights + 1 values from 0 to 1: light i is chosen with the difference after value i.
+    /// Punctual ones in scene order, then the triangles that emit, by instance and primitive.
+    Buffer<LightRecord> lights;
+    /// Empty without lights, else lights + 1 values from 0 to 1: light i is chosen with the difference after value i.
+    Buffer<float> light_distribution;
 };
 
-/// Decodes and uploads what `requirements` names. Lights are chosen by power: of a triangle the emission (of a texture its
-/// mean) times area, of a punctual light its intensity over the scene's size. A picture that cannot be decoded, or would pass
-/// 2^28 texels, is one grey texel, and a warning is added to `warnings`. Throws CapacityError, before anything is uploaded, when
-/// it does not fit. O(size of the scene).
+/// Decodes and uploads what `requirements` names. Lights are chosen by power, what they give off: of a triangle pi times its
+/// emission (of a texture its mean) times area, twice when double-sided; of a punctual light its intensity over all directions,
+/// of a directional one over a disc as large as the scene. Triangles that give off nothing, or have no area in float, are no
+/// lights. A picture that cannot be decoded, or would pass 2^28 texels, is one grey texel (of a normal texture: none), and a
+/// warning is added to `warnings`. Throws CapacityError, before anything is uploaded, when it does not fit. O(size of the scene).
 Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRequirements& requirements,
                              std::vector<std::string>& warnings);
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "render/appearance_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scene/materials_in_use.hpp"
+#include "scene/transform.hpp"
+
+namespace boxwood {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void store(const glm::dvec3& v, float (&target)[3]) {
+    for (int axis = 0; axis < 3; ++axis) target[axis] = static_cast<float>(v[axis]);
+}
+
+double mean(const glm::dvec3& color) { return (color.x + color.y + color.z) / 3.0; }
+
+/// The power of each light beside its record.
+class Lights {
+public:
+    Lights(const Scene& scene, const std::vector<glm::dvec3>& emission) : scene_(scene), emission_(emission) {}
+
+    void add_punctual() {
+        const double radius = scene_radius();
+        for (const Light& light : scene_.lights) add(light, pi * radius * radius);
+    }
+
+    void add_triangles() {
+        const std::vector<std::vector<std::uint32_t>> emitting = emitting_triangles();
+        for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+            const std::uint32_t mesh = scene_.instances[i].mesh;
+            if (emitting[mesh].empty()) continue;
+            const glm::dmat4 to_world(scene_.instances[i].transform);
+            const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(glm::dmat3(to_world)));
+            for (const std::uint32_t t : emitting[mesh])
+                add(scene_.meshes[mesh], to_world, normal_to_world, static_cast<std::uint32_t>(i), t);
+        }
+    }
+
+    LightList take() { return {std::move(records_), distribution()}; }
+
+private:
+    /// By mesh, so that instances do not look for them again.
+    std::vector<std::vector<std::uint32_t>> emitting_triangles() const {
+        std::vector<std::vector<std::uint32_t>> emitting(scene_.meshes.size());
+        for (std::size_t m = 0; m < scene_.meshes.size(); ++m)
+            for (std::size_t t = 0; t < scene_.meshes[m].materials.size(); ++t)
+                if (mean(emission_[material_of(scene_, scene_.meshes[m], t)]) > 0.0)
+                    emitting[m].push_back(static_cast<std::uint32_t>(t));
+        return emitting;
+    }
+
+    /// Half the diagonal of a box around the boxes of all instances.
+    double scene_radius() const {
+        std::vector<MeshBounds> bounds;
+        for (const Mesh& mesh : scene_.meshes) bounds.push_back(mesh_bounds(mesh.positions));
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+        for (const Instance& instance : scene_.instances)
+            for (int corner = 0; corner < 8; ++corner) {
+                const MeshBounds& box = bounds[instance.mesh];
+                const glm::dvec4 local(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                       corner & 4 ? box.max.z : box.min.z, 1.0);
+                const glm::dvec3 world(glm::dmat4(instance.transform) * local);
+                low = glm::min(low, world);
+                high = glm::max(high, world);
+            }
+        return scene_.instances.empty() ? 0.0 : 0.5 * glm::length(high - low);
+    }
+
+    void add(const Light& light, double disc) {
+        LightRecord record{};
+        store(light.position, record.position);
+        store(light.direction, record.direction);
+        store(light.intensity, record.intensity);
+        record.range = light.range;
+        record.instance = record.primitive = BOXWOOD_NONE;
+        double share = 4.0 * pi; // of the intensity
+        if (light.kind == LightKind::point) {
+            record.kind = BOXWOOD_POINT_LIGHT;
+        } else if (light.kind == LightKind::directional) {
+            record.kind = BOXWOOD_DIRECTIONAL_LIGHT;
+            share = disc;
+        } else {
+            record.kind = BOXWOOD_SPOT_LIGHT;
+            const double inner = light.inner_cone, outer = light.outer_cone;
+            // Differences of cosines, without cancellation.
+            const double inside = 2.0 * std::pow(std::sin(0.5 * inner), 2.0);
+            const double fading = 2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner));
+            // Of a cone thinner than the spacing of cosines in float there is nothing left but its axis.
+            const double scale = std::min(1.0 / fading, 0x1p24);
+            record.cone_scale = static_cast<float>(scale);
+            record.cone_offset = static_cast<float>(-std::cos(outer) * scale);
+            share = 2.0 * pi * (inside + fading / 3.0);
+        }
+        records_.push_back(record);
+        powers_.push_back(mean(glm::dvec3(light.intensity)) * share);
+    }
+
+    void add(const Mesh& mesh, const glm::dmat4& to_world, const glm::dmat3& normal_to_world, std::uint32_t instance,
+             std::uint32_t triangle) {
+        const glm::uvec3 corners = mesh.triangles[triangle];
+        glm::dvec3 vertex[3];
+        for (int i = 0; i < 3; ++i) vertex[i] = glm::dvec3(mesh.positions[corners[i]]);
+        const glm::dvec3 edges[2] = {vertex[1] - vertex[0], vertex[2] - vertex[0]};
+        const glm::dvec3 along[2] = {glm::dmat3(to_world) * edges[0], glm::dmat3(to_world) * edges[1]};
+        const double area = 0.5 * glm::length(glm::cross(along[0], along[1]));
+        const glm::dvec3 normal = normal_to_world * glm::cross(edges[0], edges[1]);
+        const double length = glm::length(normal);
+        if (!std::isnormal(static_cast<float>(area)) || !(length > 0.0)) return;
+
+        const std::uint32_t index = material_of(scene_, mesh, triangle);
+        const Material material = index < scene_.materials.size() ? scene_.materials[index] : plain_material();
+        LightRecord record{};
+        record.kind = BOXWOOD_TRIANGLE_LIGHT;
+        store(glm::dvec3(to_world * glm::dvec4(vertex[0], 1.0)), record.position);
+        store(normal / length, record.direction);
+        store(material.emission, record.intensity);
+        store(along[0], record.edges[0]);
+        store(along[1], record.edges[1]);
+        record.range = std::numeric_limits<float>::infinity();
+        record.area = static_cast<float>(area);
+        record.instance = instance;
+        record.primitive = triangle;
+        record.two_sided = material.double_sided ? 1u : 0u;
+        records_.push_back(record);
+        powers_.push_back(pi * mean(emission_[index]) * area * (material.double_sided ? 2.0 : 1.0));
+    }
+
+    std::vector<float> distribution() const {
+        std::vector<float> values;
+        if (powers_.empty()) return values;
+        double total = 0.0;
+        for (const double power : powers_) total += power;
+        const bool even = !(total > 0.0);
+        values.reserve(powers_.size() + 1);
+        values.push_back(0.0f);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < powers_.size(); ++i) {
+            sum += even ? 1.0 : powers_[i];
+            values.push_back(static_cast<float>(sum / (even ? static_cast<double>(powers_.size()) : total)));
+        }
+        values.back() = 1.0f;
+        return values;
+    }
+
+    const Scene& scene_;
+    const std::vector<glm::dvec3>& emission_;
+    std::vector<LightRecord> records_;
+    std::vector<double> powers_;
+};
+
+} // namespace
+
+std::uint64_t light_limit(const Scene& scene, const ShadingRequirements& needs) {
+    std::uint64_t count = needs.punctual ? scene.lights.size() : 0;
+    if (!needs.emission) return count;
+    std::vector<std::uint64_t> emitting(scene.meshes.size(), 0);
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+        for (std::size_t t = 0; t < scene.meshes[m].materials.size(); ++t) {
+            const std::uint32_t material = material_of(scene, scene.meshes[m], t);
+            emitting[m] += material < scene.materials.size() && emits(scene.materials[material]) ? 1 : 0;
+        }
+    for (const Instance& instance : scene.instances) count += emitting[instance.mesh];
+    return count;
+}
+
+LightList light_list(const Scene& scene, const ShadingRequirements& needs, const std::vector<glm::dvec3>& emission) {
+    Lights lights(scene, emission);
+    if (needs.punctual) lights.add_punctual();
+    if (needs.emission) lights.add_triangles();
+    return lights.take();
+}
+
+} // namespace boxwood
