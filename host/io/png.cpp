@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
+#include <string>
+#include <vector>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC // so that another library's copy does not clash
@@ -12,32 +14,42 @@
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
 #include "io/atomic_file.hpp"
+#include "io/picture.hpp"
 
 namespace boxwood {
 
 namespace {
 
-void append(void* stream, void* bytes, int count) {
-    static_cast<std::ostream*>(stream)->write(static_cast<const char*>(bytes), count);
+void append(void* target, void* bytes, int count) {
+    auto& file = *static_cast<std::vector<std::byte>*>(target);
+    file.insert(file.end(), static_cast<const std::byte*>(bytes), static_cast<const std::byte*>(bytes) + count);
 }
 
 } // namespace
 
-void save_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
-              std::span<const std::uint8_t> rgb) {
-    const std::string name = file.string();
-    if (width == 0 || height == 0) throw InputError(name, "", "an image without pixels cannot be written");
+std::vector<std::byte> encode_png(const std::string& name, PictureSize size, std::uint32_t channels,
+                                  std::span<const std::uint8_t> pixels) {
+    if (size.width == 0 || size.height == 0) throw InputError(name, "", "an image without pixels cannot be written");
     // The encoder counts bytes in int, a filter byte per row included, and its compressed copy may be a little larger.
     constexpr std::uint64_t largest = std::numeric_limits<int>::max() / 2;
-    const std::uint64_t row = 3 * std::uint64_t{width};
-    if (row + 1 > largest / height) throw InputError(name, "", "the image is too large for a PNG preview");
-    if (rgb.size() != row * height) {
-        throw InputError(name, "", "has " + std::to_string(rgb.size()) + " bytes for " + std::to_string(row * height));
+    const std::uint64_t row = channels * std::uint64_t{size.width};
+    if (row + 1 > largest / size.height) throw InputError(name, "", "the image is too large for PNG");
+    if (pixels.size() != row * size.height) {
+        throw InputError(name, "",
+                         "has " + std::to_string(pixels.size()) + " bytes for " + std::to_string(row * size.height));
     }
-    AtomicFile out(file);
-    const int done = stbi_write_png_to_func(append, &out.stream(), static_cast<int>(width), static_cast<int>(height), 3,
-                                            rgb.data(), static_cast<int>(row));
+    std::vector<std::byte> file;
+    const int done = stbi_write_png_to_func(append, &file, static_cast<int>(size.width), static_cast<int>(size.height),
+                                            static_cast<int>(channels), pixels.data(), static_cast<int>(row));
     if (done == 0) throw InputError(name, "", "cannot be encoded as PNG: is there enough memory?");
+    return file;
+}
+
+void save_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+              std::span<const std::uint8_t> rgb) {
+    const std::vector<std::byte> bytes = encode_png(file.string(), {width, height}, 3, rgb);
+    AtomicFile out(file);
+    out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.commit();
 }
 

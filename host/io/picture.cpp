@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "io/picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace {
+
+// A few bytes of a deflate stream may ask for gigabytes, whatever the size of the picture: no block is larger than this.
+thread_local std::size_t largest_block = 0;
+
+void* allocate(std::size_t bytes) { return bytes <= largest_block ? std::malloc(bytes) : nullptr; }
+
+void* reallocate(void* block, std::size_t bytes) {
+    return bytes <= largest_block ? std::realloc(block, bytes) : nullptr;
+}
+
+} // namespace
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC // so that another library's copy, with other formats, does not clash
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#define STBI_MALLOC(bytes) allocate(bytes)
+#define STBI_REALLOC(block, bytes) reallocate(block, bytes)
+#define STBI_FREE(block) std::free(block)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function" // what is not used here
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+#include "boxwood/error.hpp"
+
+namespace boxwood {
+
+namespace {
+
+constexpr std::size_t smallest_limit = std::size_t{1} << 20;
+
+const stbi_uc* first_byte(const EncodedImage& image) { return reinterpret_cast<const stbi_uc*>(image.bytes.data()); }
+
+int byte_count(const EncodedImage& image) {
+    if (!picture_format(image.bytes)) throw InputError(image.name, "", "is neither PNG nor JPEG");
+    if (image.bytes.size() > std::numeric_limits<int>::max()) throw InputError(image.name, "", "is too large a file");
+    return static_cast<int>(image.bytes.size());
+}
+
+[[noreturn]] void fail(const EncodedImage& image) {
+    const char* reason = stbi_failure_reason();
+    throw InputError(image.name, "", "cannot be decoded: " + std::string(reason == nullptr ? "no reason" : reason));
+}
+
+bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> signature) {
+    return file.size() >= signature.size() &&
+           std::equal(signature.begin(), signature.end(), file.begin(),
+                      [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
+}
+
+} // namespace
+
+std::optional<PictureFormat> picture_format(std::span<const std::byte> file) {
+    static constexpr std::array<std::uint8_t, 8> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    static constexpr std::array<std::uint8_t, 3> jpeg = {0xff, 0xd8, 0xff};
+    if (starts_with(file, png)) return PictureFormat::png;
+    if (starts_with(file, jpeg)) return PictureFormat::jpeg;
+    return std::nullopt;
+}
+
+PictureSize picture_size(const EncodedImage& image) {
+    const int bytes = byte_count(image);
+    int width = 0, height = 0, channels = 0;
+    largest_block = smallest_limit;
+    if (stbi_info_from_memory(first_byte(image), bytes, &width, &height, &channels) == 0) fail(image);
+    if (width <= 0 || height <= 0) throw InputError(image.name, "", "has no pixels");
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+Picture decode_picture(const EncodedImage& image) {
+    const int bytes = byte_count(image);
+    const PictureSize size = picture_size(image);
+    // The most that a decoder needs: 8 bytes a pixel and a filter byte a row, grown by doubling; the file, for its packed data.
+    largest_block = smallest_limit + image.bytes.size() + std::size_t{32} * size.width * size.height;
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(first_byte(image), bytes, &width, &height, &channels, 4), stbi_image_free);
+    if (pixels == nullptr) fail(image);
+    Picture picture{{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, {}};
+    picture.rgba.assign(pixels.get(), pixels.get() + 4 * std::size_t{picture.size.width} * picture.size.height);
+    return picture;
+}
+
+} // namespace boxwood
