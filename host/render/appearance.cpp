@@ -5,6 +5,7 @@
 
 #include "render/appearance_attributes.hpp"
 #include "render/appearance_lights.hpp"
+#include "render/appearance_textures.hpp"
 #include "runtime/capacity.hpp"
 #include "scene/materials_in_use.hpp"
 
@@ -12,7 +13,8 @@ namespace boxwood {
 
 namespace {
 
-MaterialRecord material_record(const Material& material) {
+/// Without `textures` the factors alone.
+MaterialRecord material_record(const Material& material, const TextureSet* textures) {
     MaterialRecord record{};
     for (int i = 0; i < 4; ++i) record.base_color[i] = material.base_color[i];
     for (int i = 0; i < 3; ++i) record.emission[i] = emits(material) ? material.emission[i] : 0.0f;
@@ -25,7 +27,11 @@ MaterialRecord material_record(const Material& material) {
     record.flags = (material.alpha_mode == AlphaMode::mask ? BOXWOOD_ALPHA_MASK : 0u) |
                    (material.alpha_mode == AlphaMode::blend ? BOXWOOD_ALPHA_BLEND : 0u) |
                    (material.double_sided ? BOXWOOD_DOUBLE_SIDED : 0u) | (material.unlit ? BOXWOOD_UNLIT : 0u);
-    for (TextureInput& input : record.textures) input.texture = BOXWOOD_NONE;
+    const auto uses = texture_uses(material);
+    for (std::size_t place = 0; place < uses.size(); ++place) {
+        record.textures[place].texture = BOXWOOD_NONE;
+        if (textures != nullptr) record.textures[place] = textures->input(*uses[place], place);
+    }
     return record;
 }
 
@@ -47,29 +53,37 @@ std::vector<std::uint32_t> triangle_materials(const Scene& scene) {
 } // namespace
 
 Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRequirements& needs,
-                             std::vector<std::string>& /*warnings*/) {
+                             std::vector<std::string>& warnings) {
     const std::vector<Material> materials = all_materials(scene);
+    std::vector<bool> used = materials_in_use(scene);
+    const std::size_t first = std::find(used.begin(), used.end(), true) - used.begin();
+    if (!needs.materials) std::fill(used.begin() + std::min(first + 1, used.size()), used.end(), false);
+    TextureSet textures(scene, needs.textures ? used : std::vector<bool>(used.size(), false), warnings);
     const BufferNeed buffers[] = {
         {"vertex attributes", scene.vertex_count() * needs.attribute_floats(), sizeof(float)},
         {"materials of triangles", needs.materials ? scene.triangle_count() : 0, sizeof(std::uint32_t)},
         {"materials", materials.size(), sizeof(MaterialRecord)},
+        {"textures", textures.records().size(), sizeof(TextureRecord)},
+        {"texels", textures.texel_count(), sizeof(std::uint32_t)},
         {"lights", light_limit(scene, needs), sizeof(LightRecord) + sizeof(float)}};
     check_fits(device, buffers, "what shading reads");
 
-    std::vector<glm::dvec3> emission;
-    std::vector<MaterialRecord> records;
-    for (const Material& material : materials) {
-        records.push_back(material_record(material));
-        emission.push_back(emits(material) ? glm::dvec3(material.emission) : glm::dvec3(0.0));
-    }
-    if (!needs.materials) {
-        const std::vector<bool> used = materials_in_use(scene);
-        const auto first = static_cast<std::size_t>(std::find(used.begin(), used.end(), true) - used.begin());
-        records = {records[std::min(first, records.size() - 1)]};
-    }
-
     Appearance appearance;
     appearance.requirements = needs;
+    if (textures.texel_count() > 0) {
+        appearance.texels = make_buffer<std::uint32_t>(device, textures.texel_count(), "texels");
+        textures.decode(device, appearance.texels, warnings);
+    }
+    std::vector<glm::dvec3> emission;
+    std::vector<MaterialRecord> records;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const bool textured = needs.textures && used[i];
+        records.push_back(material_record(materials[i], textured ? &textures : nullptr));
+        const glm::dvec3 factor(emits(materials[i]) && used[i] ? materials[i].emission : glm::vec3(0.0f));
+        emission.push_back(factor * (textured ? textures.mean(materials[i].emission_texture) : glm::dvec3(1.0)));
+    }
+    if (!needs.materials) records = {records[std::min(first, records.size() - 1)]};
+
     const auto upload_some = [&device](const auto& values, const char* label, auto& target) {
         if (!values.empty()) target = upload(device, values, label);
     };
@@ -77,6 +91,7 @@ Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRe
     if (needs.materials)
         upload_some(triangle_materials(scene), "materials of triangles", appearance.triangle_materials);
     upload_some(records, "materials", appearance.materials);
+    upload_some(textures.records(), "textures", appearance.textures);
     const LightList lights = light_list(scene, needs, emission);
     upload_some(lights.records, "lights", appearance.lights);
     upload_some(lights.distribution, "light distribution", appearance.light_distribution);
