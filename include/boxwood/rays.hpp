@@ -7,9 +7,15 @@
 #include <glm/glm.hpp>
 
 #include "boxwood/geometry.hpp"
+#include "shared/camera.h"
 #include "shared/ray.h"
 
 namespace boxwood {
+
+/// The record of a camera for a picture of width x height pixels, each sampled at `jitter` (see CameraRecord). Throws InputError
+/// for more than 2^23 pixels across or 2^32 - 1 in all.
+Buffer<CameraRecord> upload_camera(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                   glm::vec2 jitter = glm::vec2(0.0f));
 
 /// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf).
 /// `rays` has width * height elements, both at most 2^23. Throws InputError when not.
