@@ -4,12 +4,13 @@
 
 #include "boxwood/appearance.hpp"
 #include "boxwood/geometry.hpp"
+#include "boxwood/render_options.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
 
-/// The macros of cl/render/scene_arrays.h.
-Defines scene_defines(const ShadingRequirements& requirements);
+/// The macros of cl/render/scene_arrays.h, and with textures that of cl/render/texture.h.
+Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter = TextureFilter::anisotropic);
 
 /// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
 template <class... Arguments>

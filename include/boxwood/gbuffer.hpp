@@ -19,8 +19,9 @@ struct GBuffer {
     BufferView<float> shading_normals;   ///< 3: of vertices and normal texture, likewise.
     BufferView<float> albedos;           ///< 3: base colour, linear, [0, 1].
     BufferView<float> depths;            ///< 1: distance along the ray.
-    BufferView<float> uv_derivatives; ///< 4: the first set of texture coordinates from the pixel to the next one on the
-                                      ///< right, then to the one above: du, dv, du, dv. Zero without any.
+    /// 4: what is added to the first set of texture coordinates from the pixel to the next one on the right, then to the one
+    /// above, du, dv, du, dv, over the root of `samples`. Zero without any.
+    BufferView<float> uv_derivatives;
     BufferView<std::uint32_t> materials;  ///< 1: index into Appearance::materials.
     BufferView<std::uint32_t> instances;  ///< 1: index into Scene::instances.
     BufferView<std::uint32_t> primitives; ///< 1: index of the triangle within the mesh of the instance.
