@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Points for the integrals of a path: dimension by dimension and sample by sample, each in constant time from (seed, pixel,
+// sample, dimension), so that any order and any device gives the same.
+//
+// SAMPLER  0 random: independent points. 1 stratified: one point in each cell of a grid over all samples of a pixel
+//          (dissertation 3.7.4, after Pharr 2019), the cells in an order of their own for each pixel and dimension. 2 sobol: the
+//          first two dimensions of Sobol's sequence with hashed Owen scrambling and shuffling for each pixel and dimension
+//          (Burley 2020).
+#ifndef BOXWOOD_RENDER_SAMPLER_H
+#define BOXWOOD_RENDER_SAMPLER_H
+#include "render/random.h"
+#include "runtime/numerics.h"
+
+#if SAMPLER < 0 || SAMPLER > 2
+#error "define SAMPLER (0 random, 1 stratified, 2 sobol)"
+#endif
+
+typedef struct Sampler {
+    ulong key;   ///< Of the seed and the pixel.
+    uint sample; ///< Index among the samples of the pixel.
+    uint count;  ///< Samples that are planned for it, >= 1; SAMPLER 1 only.
+} Sampler;
+
+/// Uniform in [0, 1), from the top 24 bits.
+inline float unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
+
+inline uint reverse_bits(uint x) {
+    x = (x >> 16) | (x << 16);
+    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
+    return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
+}
+
+/// A permutation of 32 bits in which a bit depends on itself and on lower ones alone: Owen's scrambling of digits that are
+/// given last one first, by the hash of Laine and Karras 2011 with the constants of Vegdahl.
+inline uint scramble_reversed(uint x, uint seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is the sum of
+/// the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a sum over supersets.
+inline uint sobol_second(uint index) {
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    return index ^ (index >> 16);
+}
+
+/// The place of `index` in a permutation of [0, count) chosen by `seed` (Kensler 2013: rounds of a bijection on the next power
+/// of two, again while outside).
+inline uint permute(uint index, uint count, uint seed) {
+    uint mask = count - 1;
+    mask |= mask >> 1;
+    mask |= mask >> 2;
+    mask |= mask >> 4;
+    mask |= mask >> 8;
+    mask |= mask >> 16;
+    do {
+        uint key = seed;
+        for (uint round = 0; round < 4; ++round) {
+            index = (index * ((key << 1) | 1u)) & mask;
+            index ^= (index >> 3) ^ ((key >> 16) & mask);
+            index = (index + (key ^ (key >> 11))) & mask;
+            key += 0x9e3779b9u;
+        }
+    } while (index >= count);
+    return index;
+}
+
+/// floor(sqrt(x)), x < 2^22: whatever the last digits of the device's root are.
+inline uint floor_root(uint x) {
+    const uint root = (uint)(sqrt((float)x) + 0.5f);
+    return root * root > x ? root - 1 : root;
+}
+
+/// A point in [0, 1)^2 for the integral number `dimension` of the sample.
+inline float2 sample_square(const Sampler* sampler, uint dimension) {
+#if SAMPLER == 0
+    const ulong bits = random_bits(sampler->key, sampler->sample * 0x10000u + dimension);
+    return (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));
+#else
+    const ulong of_dimension = random_bits(sampler->key, dimension);
+#if SAMPLER == 1
+    // columns * rows <= count, and what is left over is less than a row.
+    const uint columns = floor_root(sampler->count), rows = sampler->count / columns;
+    const uint cell = permute(sampler->sample % (columns * rows), columns * rows, (uint)of_dimension);
+    const ulong bits = random_bits(of_dimension, sampler->sample);
+    const float2 inside = (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));
+    const float2 corner = (float2)((float)(cell % columns), (float)(cell / columns));
+    // A sum may round up to the next cell, and in the last one to 1.
+    return LESSER((corner + inside) / (float2)((float)columns, (float)rows), (float2)(0x1.fffffep-1f));
+#else
+    // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a net.
+    const uint index = reverse_bits(scramble_reversed(reverse_bits(sampler->sample), (uint)of_dimension));
+    const ulong seeds = random_bits(of_dimension, 0);
+    return (float2)(unit_float(reverse_bits(scramble_reversed(index, (uint)(seeds >> 32)))),
+                    unit_float(reverse_bits(scramble_reversed(sobol_second(index), (uint)seeds))));
+#endif
+#endif
+}
+
+#endif

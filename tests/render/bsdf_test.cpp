@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "runtime/launch.hpp"
+#include "support.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Matter {
+    glm::vec3 base_color{1.0f};
+    float metallic = 0.0f, roughness = 0.5f, specular = 1.0f;
+
+    std::vector<float> values() const {
+        return {base_color.x, base_color.y, base_color.z, metallic, roughness, specular};
+    }
+};
+
+struct Programs {
+    bool specular = true, uniform = false;
+
+    Defines defines() const {
+        return {{"SPECULAR", specular ? "1" : "0"}, {"UNIFORM_HEMISPHERE", uniform ? "1" : "0"}};
+    }
+};
+
+glm::vec3 at_cosine(double z) { return {std::sqrt(std::max(0.0, 1 - z * z)), 0.0, z}; }
+
+/// Value and density of each direction.
+std::vector<glm::dvec4> evaluate(const Programs& programs, const Matter& matter, const glm::vec3& wo,
+                                 const std::vector<glm::vec3>& directions) {
+    Device& device = test_device();
+    std::vector<float> flat;
+    for (const glm::vec3& d : directions) flat.insert(flat.end(), {d.x, d.y, d.z});
+    const auto count = static_cast<std::uint32_t>(directions.size());
+    Guarded<float> out(device, 4 * directions.size());
+    launch(device, {"render/bsdf_test.cl", "evaluate_test", programs.defines()}, "evaluate test", count,
+           upload(device, matter.values(), "material"), wo.x, wo.z, upload(device, flat, "directions"), count,
+           out.view());
+    CHECK(out.intact());
+    const std::vector<float> values = out.values();
+    std::vector<glm::dvec4> result(count);
+    for (std::size_t i = 0; i < count; ++i)
+        result[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
+    return result;
+}
+
+struct Drawn {
+    glm::dvec3 wi, value;
+    double pdf;
+};
+
+/// Directions drawn with `count` points of Kronecker's sequence with the cubic plastic number (Roberts 2018).
+std::vector<Drawn> draw(const Programs& programs, const Matter& matter, const glm::vec3& wo, std::uint32_t count) {
+    Device& device = test_device();
+    std::vector<float> points;
+    const double g = 1.2207440846057596; // g^4 = g + 1
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (int k = 1; k <= 3; ++k) {
+            const double x = 0.5 + (i + 1.0) * std::pow(g, -k);
+            points.push_back(std::min(float(x - std::floor(x)), 0x1.fffffep-1f));
+        }
+    Guarded<float> out(device, 7 * std::size_t{count});
+    launch(device, {"render/bsdf_test.cl", "sample_test", programs.defines()}, "sample test", count,
+           upload(device, matter.values(), "material"), wo.x, wo.z, upload(device, points, "points"), count,
+           out.view());
+    CHECK(out.intact());
+    const std::vector<float> v = out.values();
+    std::vector<Drawn> result(count);
+    for (std::size_t i = 0; i < count; ++i)
+        result[i] = {{v[7 * i], v[7 * i + 1], v[7 * i + 2]}, {v[7 * i + 3], v[7 * i + 4], v[7 * i + 5]}, v[7 * i + 6]};
+    return result;
+}
+
+/// Centres of the cells of a grid over cosine and azimuth: all stand for the same solid angle.
+std::vector<glm::vec3> hemisphere_grid(int across) {
+    std::vector<glm::vec3> directions;
+    for (int j = 0; j < across; ++j)
+        for (int i = 0; i < across; ++i) {
+            const double z = (j + 0.5) / across, phi = 2 * pi * (i + 0.5) / across, r = std::sqrt(1 - z * z);
+            directions.emplace_back(r * std::cos(phi), r * std::sin(phi), z);
+        }
+    return directions;
+}
+
+/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing and no Fresnel loss (Heitz 2014), by the
+/// midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
+/// which takes the integrand's pole at p = 1 away.
+double ggx_albedo(double cosine, double alpha, int across) {
+    const glm::dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const auto shadow = [&](const glm::dvec3& w) {
+        return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (w.z * w.z) - 1)) - 1);
+    };
+    double sum = 0.0;
+    for (int j = 0; j < across; ++j)
+        for (int k = 0; k < across; ++k) {
+            const double q = (j + 0.5) / across, phi = 2 * pi * (k + 0.5) / across;
+            const double tangent = alpha * std::sqrt(1 - q * q) / q;
+            const glm::dvec3 h = glm::normalize(glm::dvec3(tangent * std::cos(phi), tangent * std::sin(phi), 1.0));
+            const double facing = glm::dot(o, h);
+            const glm::dvec3 i = 2 * facing * h - o;
+            if (facing > 0 && i.z > 0) sum += 2 * q * facing / (o.z * h.z) / (1 + shadow(o) + shadow(i));
+        }
+    return sum / (double(across) * across);
+}
+
+const std::array<Programs, 4> all_programs = {Programs{true, false}, {true, true}, {false, false}, {false, true}};
+
+} // namespace
+
+TEST_CASE("bsdf: what is drawn has the density that is told, which integrates to 1") {
+    const int across = small_sizes() ? 24 : 256;
+    const std::uint32_t count = small_sizes() ? 256 : 1 << 16;
+    const std::vector<glm::vec3> grid = hemisphere_grid(across);
+    for (const Programs& programs : all_programs)
+        for (const float roughness : {0.4f, 1.0f}) // the grid does not resolve narrower lobes
+            for (const double cosine : {1.0, 0.6, 0.1}) {
+                CAPTURE(programs.specular);
+                CAPTURE(programs.uniform);
+                CAPTURE(roughness);
+                CAPTURE(cosine);
+                const Matter matter{{0.9f, 0.5f, 0.2f}, 0.3f, roughness, 0.8f};
+                const glm::vec3 wo = at_cosine(cosine);
+                // Means of 1, x, z, z^2 and x z over what is drawn above the surface.
+                std::array<double, 5> drawn{}, expected{};
+                double below = 0.0;
+                int misjudged = 0;
+                const auto add = [](std::array<double, 5>& sums, const glm::dvec3& w, double weight) {
+                    const double values[] = {1, w.x, w.z, w.z * w.z, w.x * w.z};
+                    for (int k = 0; k < 5; ++k) sums[k] += weight * values[k];
+                };
+                for (const Drawn& d : draw(programs, matter, wo, count)) {
+                    if (d.wi.z > 0)
+                        add(drawn, d.wi, 1.0 / count);
+                    else
+                        below += 1.0 / count;
+                    if ((d.pdf > 0) != (d.wi.z > 0)) ++misjudged;
+                }
+                CHECK(misjudged == 0);
+                const std::vector<glm::dvec4> values = evaluate(programs, matter, wo, grid);
+                for (std::size_t i = 0; i < grid.size(); ++i)
+                    add(expected, grid[i], values[i].w * 2 * pi / double(grid.size()));
+                // Cells of the grid that the horizon of the half vectors cuts, and one coordinate that takes the lobe.
+                const double tolerance = small_sizes() ? 0.1 : 5e-3;
+                CHECK(std::abs(expected[0] + below - 1.0) < tolerance);
+                for (int k = 0; k < 5; ++k) CHECK(std::abs(drawn[k] - expected[k]) < tolerance);
+            }
+}
+
+TEST_CASE("bsdf: the mean of value over density is the integral of the value") {
+    const int across = small_sizes() ? 24 : 256;
+    const std::uint32_t count = small_sizes() ? 1024 : 1 << 16;
+    const std::vector<glm::vec3> grid = hemisphere_grid(across);
+    for (const Programs& programs : all_programs)
+        for (const float metallic : {0.0f, 0.5f, 1.0f})
+            for (const double cosine : {0.9, 0.2}) {
+                CAPTURE(programs.specular);
+                CAPTURE(metallic);
+                CAPTURE(cosine);
+                const Matter matter{{0.9f, 0.5f, 0.2f}, metallic, 0.5f, 1.0f};
+                const glm::vec3 wo = at_cosine(cosine);
+                glm::dvec3 mean(0.0), integral(0.0);
+                for (const Drawn& d : draw(programs, matter, wo, count))
+                    if (d.pdf > 0) mean += d.value / d.pdf / double(count);
+                for (const glm::dvec4& v : evaluate(programs, matter, wo, grid))
+                    integral += glm::dvec3(v) * 2.0 * pi / double(grid.size());
+                for (int c = 0; c < 3; ++c) CHECK(std::abs(mean[c] - integral[c]) < (small_sizes() ? 0.1 : 4e-3));
+                // Single scattering loses light and makes none.
+                CHECK(integral.x < 1.0 + 1e-3);
+            }
+}
+
+TEST_CASE("bsdf: swapping the directions changes nothing but the cosine") {
+    const int across = small_sizes() ? 4 : 16;
+    const std::vector<glm::vec3> grid = hemisphere_grid(across);
+    for (const float roughness : {0.0f, 0.3f, 1.0f}) {
+        const Matter matter{{0.9f, 0.5f, 0.2f}, 0.4f, roughness, 0.7f};
+        for (const glm::vec3& wi : grid) {
+            // wo has y = 0: both are turned about z.
+            const glm::vec3 wo = at_cosine(0.35);
+            const float length = std::hypot(wi.x, wi.y);
+            const glm::vec3 turned(wi.x * wo.x / length, -wi.y * wo.x / length, wo.z);
+            const glm::dvec4 one = evaluate({}, matter, wo, {wi})[0];
+            const glm::dvec4 other = evaluate({}, matter, at_cosine(wi.z), {turned})[0];
+            for (int c = 0; c < 3; ++c) {
+                const double a = one[c] / wi.z, b = other[c] / wo.z;
+                // The narrowest lobe multiplies the roundings of the turned vector by the inverse of its width.
+                CHECK(std::abs(a - b) <= (roughness == 0.0f ? 1e-2 : 1e-4) * std::max(a, b));
+            }
+        }
+    }
+}
+
+TEST_CASE("bsdf: a white Lambert surface returns all light") {
+    const std::uint32_t count = small_sizes() ? 256 : 1 << 14;
+    for (const bool uniform : {false, true})
+        for (const bool specular : {false, true})
+            for (const double cosine : {1.0, 0.3, 0.01}) {
+                CAPTURE(uniform);
+                CAPTURE(cosine);
+                const Matter matter{glm::vec3(1.0f), 0.0f, 0.5f, 0.0f};
+                double mean = 0.0;
+                for (const Drawn& d : draw({specular, uniform}, matter, at_cosine(cosine), count))
+                    if (d.pdf > 0) mean += d.value.y / d.pdf / count;
+                CHECK(std::abs(mean - 1.0) < (uniform && small_sizes() ? 0.05 : 2e-3));
+            }
+}
+
+TEST_CASE("bsdf: a white GGX surface loses what single scattering loses") {
+    const int across = small_sizes() ? 128 : 512;
+    const std::uint32_t count = small_sizes() ? 256 : 1 << 15;
+    for (const float roughness : {0.0f, 0.01f, 0.03f, 0.1f, 0.3f, 0.6f, 1.0f})
+        for (const double cosine : {1.0, 0.7, 0.2, 0.05}) {
+            CAPTURE(roughness);
+            CAPTURE(cosine);
+            double mean = 0.0;
+            for (const Drawn& d : draw({}, {glm::vec3(1.0f), 1.0f, roughness, 1.0f}, at_cosine(cosine), count))
+                if (d.pdf > 0) mean += d.value.y / d.pdf / count;
+            const double expected =
+                ggx_albedo(cosine, std::max<double>(double(roughness) * roughness, 0x1p-13), across);
+            CHECK(std::abs(mean - expected) < (small_sizes() ? 0.05 : 2e-3));
+        }
+}
+
+TEST_CASE("bsdf: nothing infinite at any angle and roughness") {
+    std::vector<glm::vec3> directions;
+    for (const double z : {1.0, 0.5, 1e-3, 1e-6, 1e-12, 1e-20, 1e-30, 1e-38, 1e-42, 0.0, -1e-42, -0.5})
+        for (const double sign : {-1.0, 1.0}) directions.push_back(glm::vec3(sign, 1, 1) * at_cosine(z));
+    for (const float roughness : {0.0f, 1e-20f, 0.01f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f})
+            for (const double cosine : {1.0, 0.5, 1e-3, 1e-6, 1e-12, 1e-20, 1e-38, 1e-42})
+                for (const glm::vec3& color : {glm::vec3(0.0f), glm::vec3(1.0f)}) {
+                    CAPTURE(roughness);
+                    CAPTURE(cosine);
+                    const Matter matter{color, metallic, roughness, metallic};
+                    for (const glm::dvec4& v : evaluate({}, matter, at_cosine(cosine), directions))
+                        for (int k = 0; k < 4; ++k) CHECK((v[k] >= 0.0 && std::isfinite(v[k])));
+                    for (const Drawn& d : draw({}, matter, at_cosine(cosine), small_sizes() ? 4 : 64)) {
+                        CHECK((std::isfinite(d.wi.x + d.wi.y + d.wi.z)));
+                        CHECK((d.pdf >= 0.0 && std::isfinite(d.pdf + d.value.x + d.value.y + d.value.z)));
+                    }
+                }
+}

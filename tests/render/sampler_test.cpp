@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "runtime/launch.hpp"
+#include "support.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+enum Kind { random_kind, stratified_kind, sobol_kind };
+
+std::vector<glm::vec2> points(Kind kind, std::uint32_t count, std::uint32_t pixel, std::uint32_t dimension,
+                              std::uint64_t seed = test_seed()) {
+    Guarded<float> out(test_device(), 2 * std::size_t{count});
+    launch(test_device(), {"render/sampler_test.cl", "sampler_test", {{"SAMPLER", std::to_string(kind)}}},
+           "sampler test", count, seed, pixel, dimension, count, out.view());
+    CHECK(out.intact());
+    const std::vector<float> values = out.values();
+    std::vector<glm::vec2> result(count);
+    for (std::size_t i = 0; i < count; ++i) result[i] = {values[2 * i], values[2 * i + 1]};
+    return result;
+}
+
+/// Whether the first `count` points lie one in each cell of a grid of columns x rows, columns * rows = count.
+bool one_per_cell(const std::vector<glm::vec2>& all, std::uint32_t columns, std::uint32_t rows) {
+    std::vector<int> cells(std::size_t{columns} * rows);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const auto x = static_cast<std::uint32_t>(all[i].x * float(columns));
+        const auto y = static_cast<std::uint32_t>(all[i].y * float(rows));
+        if (++cells[std::size_t{y} * columns + x] > 1) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("sampler: points lie in the unit square, uniformly, and depend on nothing but their number") {
+    const std::uint32_t count = small_sizes() ? 64 : 4096;
+    for (const Kind kind : {random_kind, stratified_kind, sobol_kind}) {
+        CAPTURE(kind);
+        const std::vector<glm::vec2> first = points(kind, count, 7, 3);
+        glm::dvec2 mean(0.0), square(0.0);
+        double product = 0.0;
+        int outside = 0;
+        for (const glm::vec2& p : first) {
+            if (!(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f)) ++outside;
+            mean += glm::dvec2(p) / double(count);
+            square += glm::dvec2(p * p) / double(count);
+            product += double(p.x) * p.y / count;
+        }
+        CHECK(outside == 0);
+        // Variance of x is 1/12, of x^2 4/45, of x y 7/144; five standard deviations of independent points, which the others
+        // must not pass either.
+        CHECK(std::abs(mean.x - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
+        CHECK(std::abs(mean.y - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
+        CHECK(std::abs(square.x - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / count));
+        CHECK(std::abs(square.y - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / count));
+        CHECK(std::abs(product - 0.25) < 5 * std::sqrt(7.0 / 144 / count));
+        CHECK(points(kind, count, 7, 3) == first);
+        CHECK(points(kind, count, 8, 3) != first);
+        CHECK(points(kind, count, 7, 4) != first);
+        CHECK(points(kind, count, 7, 3, test_seed() + 1) != first);
+    }
+}
+
+TEST_CASE("sampler: pixels, dimensions and coordinates do not go together") {
+    // The first point of many pixels and dimensions: correlation of x with y, with the next pixel's and with the next
+    // dimension's.
+    const std::uint32_t count = small_sizes() ? 16 : 512;
+    for (const Kind kind : {random_kind, stratified_kind, sobol_kind}) {
+        CAPTURE(kind);
+        double with_y = 0.0, with_pixel = 0.0, with_dimension = 0.0;
+        for (std::uint32_t pixel = 0; pixel < count; ++pixel) {
+            const glm::dvec2 p = glm::dvec2(points(kind, 4, pixel, 0)[1]) - 0.5;
+            with_y += p.x * p.y;
+            with_pixel += p.x * (points(kind, 4, pixel + 1, 0)[1].x - 0.5);
+            with_dimension += p.x * (points(kind, 4, pixel, 1)[1].x - 0.5);
+        }
+        // Each sum has variance count / 144.
+        const double bound = 5 * std::sqrt(count / 144.0);
+        CHECK(std::abs(with_y) < bound);
+        CHECK(std::abs(with_pixel) < bound);
+        CHECK(std::abs(with_dimension) < bound);
+    }
+}
+
+TEST_CASE("sampler: stratified points lie one in each cell of a grid") {
+    // A square, less than a square, 1 and 2, a prime, and more than 2^10 so that the permutation's mask has gaps.
+    for (const std::uint32_t count : {1u, 2u, 12u, 13u, 16u, 64u, small_sizes() ? 50u : 1500u}) {
+        CAPTURE(count);
+        const auto columns = static_cast<std::uint32_t>(std::sqrt(double(count)));
+        for (std::uint32_t pixel = 0; pixel < 8; ++pixel)
+            CHECK(one_per_cell(points(stratified_kind, count, pixel, pixel), columns, count / columns));
+    }
+}
+
+TEST_CASE("sampler: the cells of stratified points have an order of their own in each dimension") {
+    std::set<std::vector<int>> orders;
+    for (std::uint32_t dimension = 0; dimension < 16; ++dimension) {
+        std::vector<int> order;
+        for (const glm::vec2& p : points(stratified_kind, 16, 0, dimension))
+            order.push_back(int(p.x * 4) + 4 * int(p.y * 4));
+        orders.insert(order);
+    }
+    CHECK(orders.size() == 16);
+}
+
+TEST_CASE("sampler: every prefix of 2^k Sobol points has one in each elementary interval of that size") {
+    const std::uint32_t log2 = small_sizes() ? 5 : 10;
+    for (std::uint32_t pixel = 0; pixel < 8; ++pixel) {
+        const std::vector<glm::vec2> all = points(sobol_kind, 1u << log2, pixel, 3 * pixel);
+        for (std::uint32_t k = 0; k <= log2; ++k)
+            for (std::uint32_t x = 0; x <= k; ++x) {
+                CAPTURE(k);
+                CAPTURE(x);
+                CHECK(one_per_cell(all, 1u << x, 1u << (k - x)));
+            }
+    }
+}
