@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "render/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "boxwood/error.hpp"
+
+namespace boxwood {
+
+namespace {
+
+double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+/// `weights`, all >= 0, become a distribution: 0, sums up to each, 1. Where every weight is 0 all are equal. A share of 2^-10
+/// is spread over all, so that none that is not 0 rounds to nothing.
+void append_distribution(const std::vector<double>& weights, std::vector<float>& out) {
+    double total = 0.0;
+    for (const double weight : weights) total += weight;
+    const double spread = (total > 0.0 ? 0x1p-10 : 1.0) / static_cast<double>(weights.size());
+    double sum = 0.0;
+    out.push_back(0.0f);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        sum += spread + (total > 0.0 ? (1.0 - 0x1p-10) * weights[i] / total : 0.0);
+        out.push_back(i + 1 == weights.size() ? 1.0f : std::min(static_cast<float>(sum), 1.0f));
+    }
+}
+
+/// Mass of the bilinear picture over each texel, but for the solid angle of its row: along an axis a texel is 3/4 its own and
+/// 1/8 each neighbour's. Columns wrap around, rows end.
+std::vector<double> texel_masses(const Environment& e) {
+    std::vector<double> across(e.pixels.size()), masses(e.pixels.size());
+    for (std::size_t y = 0; y < e.height; ++y)
+        for (std::size_t x = 0; x < e.width; ++x) {
+            const glm::vec3* row = e.pixels.data() + y * e.width;
+            across[y * e.width + x] = 0.75 * luminance(row[x]) + 0.125 * luminance(row[(x + 1) % e.width]) +
+                                      0.125 * luminance(row[(x + e.width - 1) % e.width]);
+        }
+    for (std::size_t y = 0; y < e.height; ++y) {
+        const std::size_t above = y == 0 ? 0 : y - 1, below = std::min<std::size_t>(y + 1, e.height - 1);
+        for (std::size_t x = 0; x < e.width; ++x)
+            masses[y * e.width + x] = 0.75 * across[y * e.width + x] + 0.125 * across[above * e.width + x] +
+                                      0.125 * across[below * e.width + x];
+    }
+    return masses;
+}
+
+void upload_picture(Device& device, const Environment& e, EnvironmentMap& map) {
+    const std::vector<double> masses = texel_masses(e);
+    std::vector<float> rows, columns, texels;
+    std::vector<double> row_masses(e.height);
+    columns.reserve(masses.size() + e.height);
+    for (std::size_t y = 0; y < e.height; ++y) {
+        const auto first = masses.begin() + static_cast<std::ptrdiff_t>(y * e.width);
+        const std::vector<double> row(first, first + e.width);
+        append_distribution(row, columns);
+        const double step = std::numbers::pi / e.height, top = static_cast<double>(y) * step;
+        const double solid_angle =
+            2.0 * std::sin(0.5 * step) * std::sin(top + 0.5 * step); // cos(top) - cos(top + step)
+        for (const double mass : row) row_masses[y] += mass * solid_angle;
+    }
+    append_distribution(row_masses, rows);
+    texels.reserve(3 * e.pixels.size());
+    for (const glm::vec3& pixel : e.pixels) texels.insert(texels.end(), {pixel.x, pixel.y, pixel.z});
+    map.texels = upload(device, texels, "environment");
+    map.rows = upload(device, rows, "environment rows");
+    map.columns = upload(device, columns, "environment columns");
+}
+
+} // namespace
+
+EnvironmentMap upload_environment(Device& device, const Environment& environment) {
+    if (environment.pixels.size() != std::size_t{environment.width} * environment.height)
+        throw InputError("environment", "pixels",
+                         std::to_string(environment.pixels.size()) + " for " + std::to_string(environment.width) +
+                             " x " + std::to_string(environment.height));
+    EnvironmentMap map;
+    const glm::vec3& radiance = environment.radiance;
+    const auto bright = [](const glm::vec3& c) { return c.x > 0.0f || c.y > 0.0f || c.z > 0.0f; };
+    if (!environment.pixels.empty())
+        map.kind = std::any_of(environment.pixels.begin(), environment.pixels.end(), bright) ? EnvironmentKind::picture
+                                                                                             : EnvironmentKind::none;
+    else
+        map.kind = bright(radiance) ? EnvironmentKind::constant : EnvironmentKind::none;
+    const EnvironmentRecord record{
+        {radiance.x, radiance.y, radiance.z}, environment.width, environment.height, {0, 0, 0}};
+    map.record = upload(device, std::vector<EnvironmentRecord>{record}, "environment record");
+    if (map.kind == EnvironmentKind::picture) upload_picture(device, environment, map);
+    return map;
+}
+
+} // namespace boxwood

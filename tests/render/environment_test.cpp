@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "boxwood/error.hpp"
+#include "boxwood/image.hpp"
+#include "render/environment.hpp"
+#include "runtime/launch.hpp"
+#include "support.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Answers {
+    std::vector<glm::dvec4> lookups; ///< Radiance and density of each direction.
+    std::vector<glm::dvec4> drawn;   ///< Direction and density of each point.
+};
+
+Answers ask(const Environment& environment, const std::vector<glm::vec3>& directions,
+            const std::vector<glm::vec2>& points) {
+    Device& device = test_device();
+    const EnvironmentMap map = upload_environment(device, environment);
+    const std::size_t count = std::max(directions.size(), points.size());
+    std::vector<float> d, p;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 direction = i < directions.size() ? directions[i] : glm::vec3(0, 1, 0);
+        const glm::vec2 point = i < points.size() ? points[i] : glm::vec2(0.0f);
+        d.insert(d.end(), {direction.x, direction.y, direction.z});
+        p.insert(p.end(), {point.x, point.y});
+    }
+    Guarded<float> out(device, 4 * count), drawn(device, 4 * count);
+    const char* kind = map.kind == EnvironmentKind::picture ? "2" : "1";
+    launch(device, {"render/environment_test.cl", "environment_test", {{"ENVIRONMENT", kind}}}, "environment test",
+           count, map.record, map.texels, map.rows, map.columns, upload(device, d, "directions"),
+           upload(device, p, "points"), static_cast<std::uint32_t>(count), out.view(), drawn.view());
+    CHECK(out.intact());
+    CHECK(drawn.intact());
+    const std::vector<float> a = out.values(), b = drawn.values();
+    Answers answers;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        answers.lookups.emplace_back(a[4 * i], a[4 * i + 1], a[4 * i + 2], a[4 * i + 3]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        answers.drawn.emplace_back(b[4 * i], b[4 * i + 1], b[4 * i + 2], b[4 * i + 3]);
+    return answers;
+}
+
+/// Direction of the place (x, y) of a picture, in texels: include/boxwood/environment.hpp in double precision.
+glm::dvec3 direction_of(const Environment& e, double x, double y) {
+    const double theta = pi * y / e.height, phi = 2 * pi * (x / e.width - 0.5);
+    return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+}
+
+/// A picture of random texels over four orders of magnitude, a third of them black.
+Environment random_environment(std::uint32_t width, std::uint32_t height) {
+    Random random(31);
+    Environment e;
+    e.width = width;
+    e.height = height;
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        const float value = random.below(3) == 0 ? 0.0f : std::exp(random.uniform(-5, 5));
+        e.pixels.emplace_back(value, 0.5f * value, random.uniform(0, 1) * value);
+    }
+    return e;
+}
+
+std::vector<glm::vec2> grid_points(int across) {
+    std::vector<glm::vec2> points;
+    for (int j = 0; j < across; ++j)
+        for (int i = 0; i < across; ++i) points.emplace_back((i + 0.5) / across, (j + 0.5) / across);
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("environment: axes and centres of texels") {
+    const Environment e = random_environment(8, 4);
+    // -z is between the two middle columns, +x three quarters across, +y and -y the means of nothing but their rows.
+    std::vector<glm::vec3> directions;
+    for (std::uint32_t y = 0; y < e.height; ++y)
+        for (std::uint32_t x = 0; x < e.width; ++x) directions.push_back(direction_of(e, x + 0.5, y + 0.5));
+    directions.insert(directions.end(), {{0, 0, -1}, {1, 0, 0}, {0, 0, 1}});
+    const Answers answers = ask(e, directions, {});
+    const auto near = [](const glm::dvec4& found, const glm::dvec3& wanted) {
+        return glm::length(glm::dvec3(found) - wanted) <= 1e-4 * (glm::length(wanted) + 1.0);
+    };
+    const auto pixel = [&](int x, int y) { return glm::dvec3(e.pixels[y * 8 + x]); };
+    for (std::size_t i = 0; i < e.pixels.size(); ++i) CHECK(near(answers.lookups[i], e.pixels[i]));
+    CHECK(near(answers.lookups[32], (pixel(3, 1) + pixel(4, 1) + pixel(3, 2) + pixel(4, 2)) / 4.0));
+    CHECK(near(answers.lookups[33], (pixel(5, 1) + pixel(6, 1) + pixel(5, 2) + pixel(6, 2)) / 4.0));
+    CHECK(near(answers.lookups[34], (pixel(0, 1) + pixel(7, 1) + pixel(0, 2) + pixel(7, 2)) / 4.0));
+}
+
+TEST_CASE("environment: the density integrates to 1, is that of what is drawn, and is nowhere 0 where there is light") {
+    const int across = small_sizes() ? 16 : 256;
+    for (const auto& size : {glm::uvec2(16, 8), glm::uvec2(5, 3), glm::uvec2(1, 1)}) {
+        CAPTURE(size.x);
+        const Environment e = random_environment(size.x, size.y);
+        // A grid over cosine and azimuth that texels' borders do not fall onto.
+        std::vector<glm::vec3> directions;
+        for (int j = 0; j < across; ++j)
+            for (int i = 0; i < across; ++i) {
+                const double y = 1 - 2 * (j + 0.5) / across, phi = 2 * pi * (i + 0.37) / across;
+                directions.emplace_back(std::sqrt(1 - y * y) * std::sin(phi), y, std::sqrt(1 - y * y) * std::cos(phi));
+            }
+        const Answers answers = ask(e, directions, grid_points(across));
+        const double share = 4 * pi / double(directions.size()), points = double(answers.drawn.size());
+        double total = 0.0;
+        glm::dvec3 mean(0.0), drawn(0.0);
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            const glm::dvec4& v = answers.lookups[i];
+            total += v.w * share;
+            mean += glm::dvec3(directions[i]) * v.w * share;
+            if (v.x > 0) CHECK(v.w > 0);
+        }
+        std::vector<glm::vec3> again;
+        for (const glm::dvec4& d : answers.drawn) {
+            drawn += glm::dvec3(d) / points;
+            CHECK(std::abs(glm::length(glm::dvec3(d)) - 1) < 1e-6);
+            again.emplace_back(d);
+        }
+        // Rows and columns of the grid that a border of texels cuts: 1 / across of a texel each.
+        const double tolerance = small_sizes() ? 0.25 : 0.02;
+        CHECK(std::abs(total - 1) < tolerance);
+        for (int k = 0; k < 3; ++k) CHECK(std::abs(mean[k] - drawn[k]) < tolerance);
+        const Answers back = ask(e, again, {});
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < again.size(); ++i)
+            if (std::abs(back.lookups[i].w - answers.drawn[i].w) <= 1e-4 * answers.drawn[i].w) ++same;
+        CHECK(same >= 0.98 * points); // some are drawn on the border of a texel
+    }
+}
+
+TEST_CASE("environment: drawing by the picture gives the picture's light") {
+    const int across = small_sizes() ? 32 : 256;
+    const Environment e = random_environment(12, 6);
+    const std::vector<glm::dvec4> drawn = ask(e, {}, grid_points(across)).drawn;
+    std::vector<glm::vec3> directions;
+    for (const glm::dvec4& d : drawn) directions.emplace_back(d);
+    const std::vector<glm::dvec4> radiance = ask(e, directions, {}).lookups;
+    glm::dvec3 mean(0.0), expected(0.0);
+    for (std::size_t i = 0; i < drawn.size(); ++i) mean += glm::dvec3(radiance[i]) / drawn[i].w / double(drawn.size());
+    // Bilinear interpolation in double precision, by the midpoint rule.
+    const int fine = small_sizes() ? 8 : 32;
+    const auto pixel = [&](int x, int y) { return glm::dvec3(e.pixels[std::clamp(y, 0, 5) * 12 + (x + 12) % 12]); };
+    for (int j = 0; j < 6 * fine; ++j)
+        for (int i = 0; i < 12 * fine; ++i) {
+            const double x = (i + 0.5) / fine - 0.5, y = (j + 0.5) / fine - 0.5;
+            const int cx = int(std::floor(x)), cy = int(std::floor(y));
+            const glm::dvec3 value = glm::mix(glm::mix(pixel(cx, cy), pixel(cx + 1, cy), x - cx),
+                                              glm::mix(pixel(cx, cy + 1), pixel(cx + 1, cy + 1), x - cx), y - cy);
+            expected += value * std::sin(pi * (j + 0.5) / (6 * fine)) * (pi / (6 * fine)) * (2 * pi / (12 * fine));
+        }
+    for (int c = 0; c < 3; ++c) CHECK(std::abs(mean[c] / expected[c] - 1) < (small_sizes() ? 0.05 : 5e-3));
+}
+
+TEST_CASE("environment: a picture of ones has the density of the sphere, the constant that of the hemisphere") {
+    Environment ones;
+    ones.width = 32;
+    ones.height = 16;
+    ones.pixels.assign(512, glm::vec3(1.0f));
+    const std::vector<glm::vec2> points = grid_points(16);
+    const Answers picture = ask(ones, {{0, 1, 0}, {0, -1, 0}, {0.6f, 0, 0.8f}}, points);
+    for (const glm::dvec4& v : picture.lookups) {
+        CHECK(v.x == doctest::Approx(1.0));
+        CHECK(v.w == doctest::Approx(0.25 / pi).epsilon(1e-3));
+    }
+    Environment constant;
+    constant.radiance = {1, 2, 3};
+    for (const glm::dvec4& d : ask(constant, {}, points).drawn) {
+        CHECK(d.y >= 0.0);
+        CHECK(d.w == doctest::Approx(0.5 / pi));
+    }
+    CHECK(ask(constant, {{0, 1, 0}}, {}).lookups[0].z == 3.0);
+}
+
+TEST_CASE("environment: what is black is none, and sizes must agree") {
+    Environment e;
+    CHECK(upload_environment(test_device(), e).kind == EnvironmentKind::none);
+    e.width = e.height = 2;
+    e.pixels.assign(4, glm::vec3(0.0f));
+    CHECK(upload_environment(test_device(), e).kind == EnvironmentKind::none);
+    e.height = 3;
+    CHECK_THROWS_AS(upload_environment(test_device(), e), InputError);
+    const Environment sky = default_sky();
+    CHECK(sky.pixels.size() == std::size_t{sky.width} * sky.height);
+    CHECK(upload_environment(test_device(), sky).kind == EnvironmentKind::picture);
+}
+
+TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as 0 with a warning") {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "boxwood-environment-test.exr";
+    Image image{3, 2, {}};
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>{1, 2, 3, 4, 5, 6}});
+    std::get<std::vector<float>>(image.channels[1].samples)[4] = -1.0f;
+    std::get<std::vector<float>>(image.channels[2].samples)[5] = std::numeric_limits<float>::quiet_NaN();
+    save_exr(file, image);
+    std::vector<std::string> warnings;
+    const Environment e = load_environment(file, warnings);
+    CHECK(e.width == 3);
+    CHECK(e.height == 2);
+    CHECK(e.pixels[1] == glm::vec3(2.0f));
+    CHECK(e.pixels[4] == glm::vec3(5, 0, 5));
+    CHECK(e.pixels[5] == glm::vec3(6, 6, 0));
+    CHECK(warnings.size() == 1);
+    image.channels.pop_back();
+    save_exr(file, image);
+    CHECK_THROWS_AS(load_environment(file, warnings), InputError);
+    std::filesystem::remove(file);
+    CHECK_THROWS_AS(load_environment(file, warnings), InputError);
+}
