@@ -163,12 +163,33 @@ std::vector<Vector> read_vectors(const GltfDocument& document, int index, int ty
 
 } // namespace
 
+std::vector<glm::vec2> read_vec2(const GltfDocument& document, int index, const std::string& where) {
+    return read_vectors<glm::vec2>(document, index, TINYGLTF_TYPE_VEC2, "VEC2", where);
+}
+
 std::vector<glm::vec3> read_vec3(const GltfDocument& document, int index, const std::string& where) {
     return read_vectors<glm::vec3>(document, index, TINYGLTF_TYPE_VEC3, "VEC3", where);
 }
 
 std::vector<glm::vec4> read_vec4(const GltfDocument& document, int index, const std::string& where) {
     return read_vectors<glm::vec4>(document, index, TINYGLTF_TYPE_VEC4, "VEC4", where);
+}
+
+std::vector<glm::vec4> read_colors(const GltfDocument& document, int index, const std::string& where) {
+    if (find_accessor(document, index, where).type != TINYGLTF_TYPE_VEC3) return read_vec4(document, index, where);
+    const std::vector<glm::vec3> colors = read_vec3(document, index, where);
+    std::vector<glm::vec4> with_alpha;
+    with_alpha.reserve(colors.size());
+    for (const glm::vec3& color : colors) with_alpha.emplace_back(color, 1.0f);
+    return with_alpha;
+}
+
+std::span<const std::byte> view_bytes(const GltfDocument& document, int index, const std::string& where) {
+    const auto& views = document.model.bufferViews;
+    if (!GltfDocument::has(index, views.size())) document.fail(where, "names a buffer view that does not exist");
+    const std::size_t size = views[static_cast<std::size_t>(index)].byteLength;
+    if (size == 0) return {};
+    return {find_elements(document, index, 0, 1, size, where).first, size};
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& where) {

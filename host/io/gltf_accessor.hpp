@@ -18,8 +18,15 @@ inline constexpr std::size_t largest_implicit_count = std::size_t{1} << 20;
 /// Elements of accessors[index] as floats, sparse values applied. Normalised integers become [-1, 1] or [0, 1] (glTF 2.0
 /// section 3.11), other integers their own value. `where` names the user of the accessor, for messages. Throws
 /// InputError when the accessor is missing, of another type, or reaches outside its buffer view or buffer. O(count).
+std::vector<glm::vec2> read_vec2(const GltfDocument& document, int index, const std::string& where);
 std::vector<glm::vec3> read_vec3(const GltfDocument& document, int index, const std::string& where);
 std::vector<glm::vec4> read_vec4(const GltfDocument& document, int index, const std::string& where);
+
+/// Colours of three or four components; of three the last is 1. Throws like read_vec3.
+std::vector<glm::vec4> read_colors(const GltfDocument& document, int index, const std::string& where);
+
+/// The bytes of a buffer view. Throws InputError when there is no such view, or when it reaches outside its buffer.
+std::span<const std::byte> view_bytes(const GltfDocument& document, int view, const std::string& where);
 
 /// Elements of an index accessor: scalars of unsigned 8, 16 or 32 bits. Throws like read_vec3, also for an index that
 /// equals the largest value of its type, which glTF forbids because some devices restart a primitive there.

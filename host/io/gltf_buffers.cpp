@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the bytes of buffers come from: the GLB's chunk, a data: URI, or a file in the scene's folder.
+// Where the bytes of buffers and images come from: the GLB's chunk, a data: URI, or a file in the scene's folder.
 #include <algorithm>
 #include <cstdint>
 #include <system_error>
@@ -79,16 +79,12 @@ std::filesystem::path resolve(const std::string& uri, const std::filesystem::pat
 }
 
 std::span<const std::byte> load_buffer(GltfDocument& document, const nlohmann::json& buffer, std::size_t index,
-                                       std::span<const std::byte> binary_chunk, const std::filesystem::path& folder) {
+                                       std::span<const std::byte> binary_chunk) {
     const std::string where = element("buffers", index);
     const auto length = buffer.at("byteLength").get<std::uint64_t>();
     std::span<const std::byte> bytes;
     if (const auto uri = buffer.find("uri"); uri != buffer.end()) {
-        const auto& text = uri->get_ref<const std::string&>();
-        const std::string at = where + ".uri";
-        document.owned.push_back(text.starts_with("data:")
-                                     ? decode_data_uri(text, document.file, at)
-                                     : read_regular_file(resolve(text, folder, document.file, at), document.file, at));
+        document.owned.push_back(load_uri(document, uri->get_ref<const std::string&>(), where + ".uri"));
         bytes = document.owned.back();
     } else if (index == 0) {
         bytes = binary_chunk;
@@ -103,12 +99,16 @@ std::span<const std::byte> load_buffer(GltfDocument& document, const nlohmann::j
 
 } // namespace
 
-void load_buffers(GltfDocument& document, const nlohmann::json& root, std::span<const std::byte> binary_chunk,
-                  const std::filesystem::path& folder) {
+std::vector<std::byte> load_uri(const GltfDocument& document, const std::string& uri, const std::string& where) {
+    if (uri.starts_with("data:")) return decode_data_uri(uri, document.file, where);
+    return read_regular_file(resolve(uri, document.folder, document.file, where), document.file, where);
+}
+
+void load_buffers(GltfDocument& document, const nlohmann::json& root, std::span<const std::byte> binary_chunk) {
     const auto buffers = root.find("buffers");
     if (buffers == root.end()) return;
     for (std::size_t i = 0; i < buffers->size(); ++i) {
-        document.buffers.push_back(load_buffer(document, (*buffers)[i], i, binary_chunk, folder));
+        document.buffers.push_back(load_buffer(document, (*buffers)[i], i, binary_chunk));
     }
 }
 

@@ -67,6 +67,21 @@ Container open_glb(std::span<const std::byte> bytes, const std::string& file) {
     return container;
 }
 
+// Moved out of `root`: tinygltf would open the images.
+nlohmann::json take_looks(nlohmann::json& root) {
+    nlohmann::json looks = nlohmann::json::object();
+    for (const char* key : {"materials", "textures", "samplers", "images"}) {
+        const auto found = root.find(key);
+        looks[key] = found == root.end() ? nlohmann::json::array() : std::move(*found);
+        root.erase(key);
+    }
+    looks["lights"] = nlohmann::json::array();
+    if (root.contains("/extensions/KHR_lights_punctual/lights"_json_pointer))
+        looks["lights"] = std::move(root["extensions"]["KHR_lights_punctual"]["lights"]);
+    root.erase("extensions");
+    return looks;
+}
+
 // tinygltf turns checked JSON into typed structures. It gets neither buffers nor images, so it opens no file.
 tinygltf::Model make_model(nlohmann::json root, const std::string& file) {
     root.erase("buffers");
@@ -121,7 +136,9 @@ GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const
     nlohmann::json root = parse_gltf_json(container.json, document.file);
     check_required_extensions(root, document.file);
     check_gltf_fields(root, document.file);
-    load_buffers(document, root, container.binary, folder);
+    document.folder = folder;
+    load_buffers(document, root, container.binary);
+    document.looks = take_looks(root);
     document.model = make_model(std::move(root), document.file);
     return document;
 }

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
 #include "boxwood/scene.hpp"
@@ -23,6 +23,8 @@ std::string element(std::string_view array, std::size_t index);
 struct GltfDocument {
     std::string file;      ///< For messages.
     tinygltf::Model model; ///< Scenes, nodes, meshes, cameras, accessors and buffer views; no buffers, no materials.
+    nlohmann::json looks; ///< "materials", "textures", "samplers", "images" and "lights" as the file has them, checked.
+    std::filesystem::path folder;                    ///< Of files that it names; empty when there is none.
     std::vector<std::span<const std::byte>> buffers; ///< As long as the file says they are.
     std::vector<std::vector<std::byte>> owned;       ///< What `buffers` outside the file's own bytes point into.
 
@@ -44,7 +46,11 @@ Scene load_gltf_memory(std::span<const std::byte> bytes, std::string file, const
 std::vector<std::byte> read_regular_file(const std::filesystem::path& path, const std::string& name,
                                          const std::string& where);
 
-/// Parses glTF JSON, without what Boxwood never reads (images, materials, animations, extras, foreign extensions).
+/// The bytes that a data: URI holds, or the file in the document's folder that a relative one names. Throws InputError(document.file,
+/// where) when there are none, and for a path out of the folder.
+std::vector<std::byte> load_uri(const GltfDocument& document, const std::string& uri, const std::string& where);
+
+/// Parses glTF JSON, without what Boxwood never reads (animations, skins, extras, foreign extensions).
 /// Throws InputError when it is no JSON object.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
@@ -55,8 +61,10 @@ void check_required_extensions(const nlohmann::json& root, const std::string& fi
 /// because a file may lack what an extension replaces. Throws InputError naming the field.
 void check_gltf_fields(const nlohmann::json& root, const std::string& file);
 
+/// The part of check_gltf_fields about materials, textures, images, samplers and lights.
+void check_gltf_looks(const nlohmann::json& root, const std::string& file);
+
 /// Puts the buffers that `root` describes into `document`. `binary_chunk` is the GLB's own, or empty. Throws InputError.
-void load_buffers(GltfDocument& document, const nlohmann::json& root, std::span<const std::byte> binary_chunk,
-                  const std::filesystem::path& folder);
+void load_buffers(GltfDocument& document, const nlohmann::json& root, std::span<const std::byte> binary_chunk);
 
 } // namespace boxwood

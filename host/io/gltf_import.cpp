@@ -9,6 +9,8 @@
 #include "boxwood/gltf.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_camera.hpp"
+#include "io/gltf_lights.hpp"
+#include "io/gltf_materials.hpp"
 #include "io/gltf_mesh.hpp"
 #include "io/gltf_nodes.hpp"
 #include "scene/transform.hpp"
@@ -25,10 +27,12 @@ public:
 
     Scene load() {
         const std::vector<PlacedNode> nodes = place_nodes(document_);
+        load_materials(document_, scene_, warnings_);
         load_used_meshes(nodes);
         for (const PlacedNode& placed : nodes) {
             add_instances(placed);
             if (auto camera = load_camera(document_, placed, warnings_)) scene_.cameras.push_back(std::move(*camera));
+            if (auto light = load_light(document_, placed, warnings_)) scene_.lights.push_back(std::move(*light));
         }
         scene_.warnings = warnings_.take();
         return std::move(scene_);

@@ -15,23 +15,35 @@ namespace {
 // Deeper than any glTF property that is kept.
 constexpr std::size_t deepest_nesting = 64;
 
-constexpr std::array<std::string_view, 10> sections{
-    "asset",  "accessors", "bufferViews", "buffers", "cameras",
-    "meshes", "nodes",     "scene",       "scenes",  "extensionsRequired"};
+constexpr std::array<std::string_view, 15> sections{
+    "asset",    "accessors", "bufferViews", "buffers",    "cameras",
+    "meshes",   "nodes",     "scene",       "scenes",     "materials",
+    "textures", "samplers",  "images",      "extensions", "extensionsRequired"};
+
+constexpr std::array<std::string_view, 6> extensions{
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_unlit", "KHR_texture_transform"};
+
+template <class List>
+bool contains(const List& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 } // namespace
 
 // The number of open objects and arrays is 1 in the root, 3 in an element of a root array, 4 in an object of that element.
 bool GltfJsonReader::keep(const std::string& key) {
     const std::size_t depth = open_.size();
-    if (depth == 1) {
-        section_ = key;
-        in_extensions_ = false;
-        return std::find(sections.begin(), sections.end(), key) != sections.end();
+    if (depth == 1) section_ = key;
+    if (depth < extension_depth_) extension_depth_ = 0;
+    if (depth == extension_depth_) return contains(extensions, key);
+    if (key == "extensions") {
+        // An extension inside another has none that is read.
+        if (extension_depth_ > 0 || (section_ != "nodes" && section_ != "materials" && depth > 1)) return false;
+        extension_depth_ = depth + 1;
+        return true;
     }
-    if (depth == 3) in_extensions_ = key == "extensions";
-    if (key == "extensions") return section_ == "nodes" && depth == 3;
-    if (depth == 4 && in_extensions_) return key == "EXT_mesh_gpu_instancing";
+    if (depth == 1) return contains(sections, key);
     return key != "extras" && !(section_ == "accessors" && (key == "min" || key == "max"));
 }
 

@@ -9,7 +9,7 @@
 
 namespace boxwood {
 
-/// Builds a JSON document from parser events and leaves out, key by key, what Boxwood never reads: images and the like
+/// Builds a JSON document from parser events and leaves out, key by key, what Boxwood never reads: animations and the like
 /// never take memory, and no kept value is nested so deeply that a recursive pass over it could run out of stack.
 /// The parser itself does not recurse. Every failure is thrown as an InputError.
 class GltfJsonReader : public nlohmann::json_sax<nlohmann::json> {
@@ -46,7 +46,7 @@ private:
     std::vector<nlohmann::json*> open_; ///< The kept objects and arrays around the next value.
     std::string key_;                   ///< Of the next value, when it goes into an object.
     std::string section_;               ///< Key in the root that we are under.
-    bool in_extensions_ = false;        ///< Of an element of a root array.
+    std::size_t extension_depth_ = 0;   ///< Where the keys are names of extensions; 0 outside any "extensions".
     bool skip_next_ = false;
     std::size_t skipped_depth_ = 0; ///< Objects and arrays open inside a value that is left out.
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_attributes.hpp"
 
 namespace boxwood {
 
@@ -21,6 +22,15 @@ struct VertexRange {
     std::size_t count;
 };
 
+/// The marked elements, in their order. An empty list stays empty.
+template <class T>
+void keep_marked(const std::vector<bool>& kept, std::vector<T>& elements) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        if (kept[i]) elements[next++] = elements[i];
+    elements.resize(next);
+}
+
 class MeshLoader {
 public:
     MeshLoader(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings)
@@ -33,6 +43,8 @@ public:
         for (std::size_t i = 0; i < source_.primitives.size(); ++i) {
             add_primitive(source_.primitives[i], element(where_ + ".primitives", i));
         }
+        if (!mesh_.materials.empty()) materials_to(mesh_.triangles.size(), BOXWOOD_NONE);
+        complete_attributes(mesh_);
         drop_unusable();
         return std::move(mesh_);
     }
@@ -50,22 +62,40 @@ private:
         if (positions == primitive.attributes.end()) return warnings_.add(where, "has no positions, skipped");
         if (!primitive.targets.empty()) warnings_.add(where, "morph targets are left out, base positions are used");
 
-        const VertexRange range = add_vertices(positions->second, where + ".attributes.POSITION");
+        const VertexRange range = add_vertices(primitive, where + ".attributes");
+        first_new_triangle_ = mesh_.triangles.size();
         add_triangles(primitive.mode, vertex_order(primitive, range, where + ".indices"), where);
+        add_materials(primitive, where + ".material");
     }
 
-    VertexRange add_vertices(int accessor, const std::string& where) {
-        if (const auto known = ranges_.find(accessor); known != ranges_.end()) return known->second;
-        const std::vector<glm::vec3> positions = read_vec3(document_, accessor, where);
+    VertexRange add_vertices(const tinygltf::Primitive& primitive, const std::string& attributes) {
+        const VertexKey key = vertex_key(primitive);
+        if (const auto known = ranges_.find(key); known != ranges_.end()) return known->second;
+        const std::string where = attributes + ".POSITION";
+        const std::vector<glm::vec3> positions = read_vec3(document_, key[0], where);
         const VertexRange range{mesh_.positions.size(), positions.size()};
         if (range.first + range.count > std::numeric_limits<std::uint32_t>::max()) {
             document_.fail(where, "makes more than 2^32 vertices in one mesh");
         }
         mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
-        ranges_.emplace(accessor, range);
+        ranges_.emplace(key, range);
         note_unusable(range, where);
+        add_attributes(document_, key, range.first, attributes, mesh_, warnings_);
         return range;
     }
+
+    // Of the triangles that have none yet. A mesh without any material keeps an empty list.
+    void add_materials(const tinygltf::Primitive& primitive, const std::string& where) {
+        const std::size_t known = document_.looks["materials"].size();
+        if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= known)
+            document_.fail(where, "names a material that does not exist");
+        if (primitive.material < 0 && mesh_.materials.empty()) return;
+        materials_to(first_new_triangle_, BOXWOOD_NONE);
+        materials_to(mesh_.triangles.size(),
+                     primitive.material < 0 ? BOXWOOD_NONE : static_cast<std::uint32_t>(primitive.material));
+    }
+
+    void materials_to(std::size_t triangles, std::uint32_t material) { mesh_.materials.resize(triangles, material); }
 
     // Remembers the first unusable vertex of a primitive's positions for the messages of drop_unusable.
     void note_unusable(VertexRange range, const std::string& where) {
@@ -121,16 +151,26 @@ private:
         if (first_unusable_.empty()) return;
         constexpr std::uint32_t gone = std::numeric_limits<std::uint32_t>::max();
         std::vector<std::uint32_t> renumbered(mesh_.positions.size(), gone);
-        std::uint32_t kept = 0;
+        std::vector<bool> kept(mesh_.positions.size());
+        std::uint32_t next = 0;
         for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
-            if (!usable(mesh_.positions[i])) continue;
-            mesh_.positions[kept] = mesh_.positions[i];
-            renumbered[i] = kept++;
+            kept[i] = usable(mesh_.positions[i]);
+            if (kept[i]) renumbered[i] = next++;
         }
-        mesh_.positions.resize(kept);
+        keep_marked(kept, mesh_.positions);
+        keep_marked(kept, mesh_.normals);
+        keep_marked(kept, mesh_.tangents);
+        for (auto& uvs : mesh_.uvs) keep_marked(kept, uvs);
+        keep_marked(kept, mesh_.colors);
         const std::size_t before = mesh_.triangles.size();
         for (glm::uvec3& t : mesh_.triangles) t = {renumbered[t.x], renumbered[t.y], renumbered[t.z]};
-        std::erase_if(mesh_.triangles, [](const glm::uvec3& t) { return t.x == gone || t.y == gone || t.z == gone; });
+        kept.resize(before);
+        for (std::size_t i = 0; i < before; ++i) {
+            const glm::uvec3& t = mesh_.triangles[i];
+            kept[i] = t.x != gone && t.y != gone && t.z != gone;
+        }
+        keep_marked(kept, mesh_.triangles);
+        keep_marked(kept, mesh_.materials);
         const std::size_t dropped = before - mesh_.triangles.size();
         if (before > 0 && mesh_.triangles.empty()) {
             document_.fail(first_unusable_,
@@ -147,7 +187,8 @@ private:
     ImportCounts& counts_;
     Warnings& warnings_;
     Mesh mesh_;
-    std::map<int, VertexRange> ranges_; ///< By position accessor.
+    std::map<VertexKey, VertexRange> ranges_;
+    std::size_t first_new_triangle_ = 0; ///< Of the primitive being added.
     std::string first_unusable_;
 };
 

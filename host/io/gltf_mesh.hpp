@@ -20,8 +20,8 @@ private:
     std::size_t more_ = 0;
 };
 
-/// The triangle primitives of meshes[index], concatenated; primitives that share a position accessor share its
-/// vertices. Triangles that use a vertex that is not finite or out of range are dropped and counted, with a warning;
+/// The triangle primitives of meshes[index], concatenated; primitives that share all accessors of vertices share
+/// the vertices. Triangles that use a vertex that is not finite or out of range are dropped and counted, with a warning;
 /// points and lines are skipped and counted. The mesh has no triangle when the file has none for it. Throws InputError
 /// when a reference or an index is out of range, or when every triangle had to be dropped.
 Mesh load_mesh(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings);

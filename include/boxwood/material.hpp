@@ -15,6 +15,12 @@
 
 namespace boxwood {
 
+/// Largest emission and intensity of one colour: sums and products of a few of them stay inside float.
+inline constexpr float largest_radiance = 1152921504606846976.0f; // 2^60
+
+/// Smallest Light::outer_cone.
+inline constexpr float smallest_cone = std::numeric_limits<float>::min();
+
 /// A picture as its file holds it; it is decoded when a program reads it.
 struct EncodedImage {
     std::string name;             ///< Of the element or file that it came from, for messages.
@@ -36,7 +42,7 @@ struct Texture {
 struct TextureUse {
     std::uint32_t texture = BOXWOOD_NONE; ///< Index into Scene::textures; BOXWOOD_NONE: the factor alone counts.
     std::uint32_t uv_set = 0;             ///< 0 or 1.
-    glm::mat3 transform{1.0f};            ///< uv' = (transform * (u, v, 1)).xy; finite.
+    glm::mat3 transform{1.0f};            ///< uv' = (transform * (u, v, 1)).xy; like positions in range.
 
     bool used() const { return texture != BOXWOOD_NONE; }
 };
@@ -53,11 +59,12 @@ struct Material {
     float roughness = 1.0f;     ///< [0, 1], perceptual: alpha of GGX is its square.
     float specular =
         1.0f; ///< [0, 1], KHR_materials_specular: strength of a dielectric's reflection; 0 is pure Lambert.
-    glm::vec3 emission{0.0f};  ///< Radiance, factor times strength; >= 0. From the front, from both when double_sided.
-    float normal_scale = 1.0f; ///< Of the x and y of the normal texture.
+    glm::vec3 emission{
+        0.0f}; ///< Radiance, factor times strength, within [0, largest_radiance]. From the front, from both when double_sided.
+    float normal_scale = 1.0f;       ///< Of the x and y of the normal texture; within largest_coordinate.
     float occlusion_strength = 1.0f; ///< [0, 1]; read by the G-buffer and the ambient integrator only.
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f; ///< AlphaMode::mask only.
+    float alpha_cutoff = 0.5f; ///< >= 0; AlphaMode::mask only.
     bool double_sided = false; ///< Both sides are always shaded; this decides about emission.
     bool unlit = false;        ///< Shows base_color as radiance and scatters nothing.
     TextureUse base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emission_texture;
@@ -72,8 +79,9 @@ enum class LightKind { point, spot, directional };
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 intensity{1.0f}; ///< Colour times intensity, >= 0: per steradian (point, spot), irradiance (directional).
-    glm::vec3 position{0.0f};  ///< Point, spot.
+    glm::vec3 intensity{
+        1.0f}; ///< Colour times intensity, within [0, largest_radiance] and not all zero: per steradian (point, spot), irradiance (directional).
+    glm::vec3 position{0.0f};                             ///< Point, spot.
     glm::vec3 direction{0.0f, 0.0f, -1.0f};               ///< Where the light goes, normalised. Spot, directional.
     float range = std::numeric_limits<float>::infinity(); ///< > 0; nothing beyond it is lit. Point, spot.
     float inner_cone = 0.0f;         ///< Radians, >= 0 and < outer_cone: full intensity inside. Spot.

@@ -17,7 +17,7 @@ inline constexpr float largest_coordinate = 1152921504606846976.0f; // 2^60
 
 /// An indexed triangle mesh in object space. Every position is finite and within largest_coordinate, every index is
 /// below positions.size(), and there is at least one triangle. `materials` is empty (all plain) or has one element per
-/// triangle. An attribute is empty or has one finite element per vertex; what is missing is made up where it is needed: the
+/// triangle. An attribute is empty or has one finite element per vertex, texture coordinates within largest_coordinate; what is missing is made up where it is needed: the
 /// triangle's own normal, tangents from the texture coordinates, white.
 struct Mesh {
     std::string name;
@@ -78,7 +78,7 @@ void validate(const Scene& scene, const std::string& file);
 
 /// The scene as one mesh in world space with one identity instance, triangles in instance order; instance i's
 /// triangles start at the sum of the triangle counts of the instances before it. Positions are transformed in double
-/// and rounded once. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
+/// and rounded once. Of looks nothing is kept: no attributes, materials or lights. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
 Scene flatten(const Scene& scene);
 
 } // namespace boxwood
