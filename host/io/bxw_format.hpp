@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The .bxw container, version 2. Little-endian, no padding, so that every byte is either compared or under a checksum:
+// The .bxw container, version 3. Little-endian, no padding, so that every byte is either compared or under a checksum:
 //
 //     Header
 //     SectionEntry[section_count]
@@ -27,6 +27,7 @@ namespace boxwood::bxw {
 
 static_assert(std::endian::native == std::endian::little, "sections are the bytes of arrays in memory");
 static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(glm::mat4) == 64);
+static_assert(sizeof(glm::vec2) == 8 && sizeof(glm::vec4) == 16);
 
 /// A byte that is not ASCII, the name, and line ends that a text-mode copy would change.
 inline constexpr std::array<char, 8> magic = {'\x89', 'B', 'X', 'W', '\r', '\n', '\x1a', '\n'};
@@ -65,10 +66,18 @@ struct SectionKind {
     std::uint64_t element_size;
 };
 
-inline constexpr std::array<SectionKind, 14> section_kinds = {{
-    {"scene", 1},                      // see bxw_scene.hpp
-    {"positions", sizeof(glm::vec3)},  // of all meshes, in mesh order
-    {"triangles", sizeof(glm::uvec3)}, // of all meshes, indices within the mesh
+inline constexpr std::array<SectionKind, 22> section_kinds = {{
+    {"scene", 1},                         // see bxw_scene.hpp
+    {"positions", sizeof(glm::vec3)},     // of all meshes, in mesh order
+    {"triangles", sizeof(glm::uvec3)},    // of all meshes, indices within the mesh
+    {"materials", sizeof(std::uint32_t)}, // of the triangles of all meshes that have them, likewise the attributes
+    {"normals", sizeof(glm::vec3)},
+    {"tangents", sizeof(glm::vec4)},
+    {"uvs_0", sizeof(glm::vec2)},
+    {"uvs_1", sizeof(glm::vec2)},
+    {"colors", sizeof(glm::vec4)},
+    {"looks", 1},  // see bxw_looks.hpp
+    {"images", 1}, // the files of all images
     {"tree", sizeof(TreeRecord)},
     {"binary_nodes", sizeof(BinaryNode)}, // from here on the arrays of TreeImage
     {"oriented_nodes", sizeof(OrientedNode)},

@@ -8,6 +8,7 @@
 
 #include "boxwood/error.hpp"
 #include "io/bxw_format.hpp"
+#include "io/bxw_looks.hpp"
 #include "io/bxw_scene.hpp"
 
 namespace boxwood {
@@ -132,15 +133,46 @@ private:
     Checksum sum_;
 };
 
+/// A section with an array of every mesh, as long as size(MeshSize) says.
+template <class T, class Size, class Member>
+void read_arrays(SectionReader& in, const char* section, SceneOutline& outline, Size size, Member member) {
+    in.begin(section);
+    for (std::size_t i = 0; i < outline.sizes.size(); ++i)
+        member(outline.scene.meshes[i]) = in.take<T>(size(outline.sizes[i]));
+    in.end();
+}
+
+/// Likewise of an attribute of vertices.
+template <class T, class Member>
+void read_attribute(SectionReader& in, const char* section, SceneOutline& outline, MeshPart part, Member member) {
+    read_arrays<T>(
+        in, section, outline, [part](const MeshSize& size) { return size.vertices_with(part); }, member);
+}
+
 Scene read_scene(SectionReader& in, const std::string& file) {
     SceneOutline outline = decode_scene(in.all<char>("scene"), file);
-    std::vector<Mesh>& meshes = outline.scene.meshes;
-    in.begin("positions");
-    for (std::size_t i = 0; i < meshes.size(); ++i) meshes[i].positions = in.take<glm::vec3>(outline.sizes[i].vertices);
-    in.end();
-    in.begin("triangles");
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        meshes[i].triangles = in.take<glm::uvec3>(outline.sizes[i].triangles);
+    read_arrays<glm::vec3>(
+        in, "positions", outline, [](const MeshSize& size) { return size.vertices; },
+        [](Mesh & mesh) -> auto& { return mesh.positions; });
+    read_arrays<glm::uvec3>(
+        in, "triangles", outline, [](const MeshSize& size) { return size.triangles; },
+        [](Mesh & mesh) -> auto& { return mesh.triangles; });
+    read_arrays<std::uint32_t>(
+        in, "materials", outline, [](const MeshSize& size) { return size.triangles_with(mesh_materials); },
+        [](Mesh & mesh) -> auto& { return mesh.materials; });
+    read_attribute<glm::vec3>(
+        in, "normals", outline, mesh_normals, [](Mesh & mesh) -> auto& { return mesh.normals; });
+    read_attribute<glm::vec4>(
+        in, "tangents", outline, mesh_tangents, [](Mesh & mesh) -> auto& { return mesh.tangents; });
+    read_attribute<glm::vec2>(
+        in, "uvs_0", outline, mesh_uvs_0, [](Mesh & mesh) -> auto& { return mesh.uvs[0]; });
+    read_attribute<glm::vec2>(
+        in, "uvs_1", outline, mesh_uvs_1, [](Mesh & mesh) -> auto& { return mesh.uvs[1]; });
+    read_attribute<glm::vec4>(
+        in, "colors", outline, mesh_colors, [](Mesh & mesh) -> auto& { return mesh.colors; });
+    const std::vector<std::uint64_t> sizes = decode_looks(in.all<char>("looks"), file, outline.scene);
+    in.begin("images");
+    for (std::size_t i = 0; i < sizes.size(); ++i) outline.scene.images[i].bytes = in.take<std::byte>(sizes[i]);
     in.end();
     return std::move(outline.scene);
 }

@@ -1,78 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "io/bxw_scene.hpp"
 
-#include <cstring>
-#include <string_view>
-#include <type_traits>
-
-#include "boxwood/error.hpp"
+#include "io/bxw_codec.hpp"
 
 namespace boxwood::bxw {
 
 namespace {
 
-class Encoder {
-public:
-    template <class T>
-    void put(const T& value) {
-        static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T> ||
-                      std::is_same_v<T, glm::mat4>);
-        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    void put_count(std::size_t count) { put(static_cast<std::uint64_t>(count)); }
-    void put_text(std::string_view text) {
-        put_count(text.size());
-        bytes_.append(text);
-    }
-    std::string take() { return std::move(bytes_); }
-
-private:
-    std::string bytes_;
-};
-
-class Decoder {
-public:
-    Decoder(std::span<const char> bytes, const std::string& file) : rest_(bytes), file_(file) {}
-
-    template <class T>
-    T get() {
-        if (rest_.size() < sizeof(T)) fail("ends too early");
-        T value;
-        std::memcpy(&value, rest_.data(), sizeof value);
-        rest_ = rest_.subspan(sizeof value);
-        return value;
-    }
-
-    /// A list's count, refused when the rest of the section cannot hold that many elements of `least` bytes each.
-    std::size_t get_count(std::size_t least) {
-        const auto count = get<std::uint64_t>();
-        if (count > rest_.size() / least) fail("counts more elements than it holds");
-        return static_cast<std::size_t>(count);
-    }
-
-    std::string get_text() {
-        const std::size_t size = get_count(1);
-        std::string text(rest_.data(), size);
-        rest_ = rest_.subspan(size);
-        return text;
-    }
-
-    void finish() const {
-        if (!rest_.empty()) fail("has bytes behind its last element");
-    }
-
-    [[noreturn]] void fail(const char* what) const { throw InputError(file_, "section scene", what); }
-
-private:
-    std::span<const char> rest_;
-    const std::string& file_;
-};
-
 // Least bytes of an element, all texts empty.
-constexpr std::size_t text_bytes = sizeof(std::uint64_t);
-constexpr std::size_t mesh_bytes = text_bytes + 2 * sizeof(std::uint64_t);
+constexpr std::size_t mesh_bytes = text_bytes + 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t);
 constexpr std::size_t instance_bytes = text_bytes + sizeof(std::uint32_t) + sizeof(glm::mat4);
 constexpr std::size_t camera_bytes = text_bytes + sizeof(glm::mat4) + sizeof(std::uint32_t) + 2 * sizeof(float);
+
+/// What `mesh` has, as bits of MeshPart.
+std::uint32_t parts_of(const Mesh& mesh) {
+    return (mesh.materials.empty() ? 0u : mesh_materials) | (mesh.normals.empty() ? 0u : mesh_normals) |
+           (mesh.tangents.empty() ? 0u : mesh_tangents) | (mesh.uvs[0].empty() ? 0u : mesh_uvs_0) |
+           (mesh.uvs[1].empty() ? 0u : mesh_uvs_1) | (mesh.colors.empty() ? 0u : mesh_colors);
+}
 
 Instance decode_instance(Decoder& in) {
     Instance instance;
@@ -106,6 +51,7 @@ std::string encode_scene(const Scene& scene) {
         out.put_text(mesh.name);
         out.put_count(mesh.positions.size());
         out.put_count(mesh.triangles.size());
+        out.put(parts_of(mesh));
     }
     out.put_count(scene.instances.size());
     for (const Instance& instance : scene.instances) {
@@ -127,7 +73,7 @@ std::string encode_scene(const Scene& scene) {
 }
 
 SceneOutline decode_scene(std::span<const char> bytes, const std::string& file) {
-    Decoder in(bytes, file);
+    Decoder in(bytes, "section scene", file);
     SceneOutline outline;
     Scene& scene = outline.scene;
     scene.counts.dropped_triangles = in.get<std::uint64_t>();
@@ -140,6 +86,7 @@ SceneOutline decode_scene(std::span<const char> bytes, const std::string& file) 
         scene.meshes[i].name = in.get_text();
         outline.sizes[i].vertices = in.get<std::uint64_t>();
         outline.sizes[i].triangles = in.get<std::uint64_t>();
+        outline.sizes[i].parts = in.get_word(2 * mesh_colors, "has a mesh with an unknown attribute");
     }
     scene.instances.resize(in.get_count(instance_bytes));
     for (Instance& instance : scene.instances) instance = decode_instance(in);

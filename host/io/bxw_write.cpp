@@ -4,6 +4,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/bxw_format.hpp"
+#include "io/bxw_looks.hpp"
 #include "io/bxw_scene.hpp"
 
 namespace boxwood {
@@ -50,27 +51,38 @@ void put(std::ostream& out, std::span<const std::byte> bytes) {
 void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
     const std::string outline = encode_scene(scene);
     const TreeRecord record = record_of(tree);
-    Parts positions;
-    Parts triangles;
-    for (const Mesh& mesh : scene.meshes) {
-        positions.push_back(std::as_bytes(std::span(mesh.positions)));
-        triangles.push_back(std::as_bytes(std::span(mesh.triangles)));
-    }
+    const std::string looks = encode_looks(scene);
+    const auto of_meshes = [&scene](auto member) {
+        Parts parts;
+        for (const Mesh& mesh : scene.meshes) parts.push_back(std::as_bytes(std::span(member(mesh))));
+        return parts;
+    };
+    Parts images;
+    for (const EncodedImage& image : scene.images) images.push_back(image.bytes);
     // In the order of section_kinds.
-    const std::array<Parts, section_kinds.size()> sections = {Parts{std::as_bytes(std::span(outline))},
-                                                              std::move(positions),
-                                                              std::move(triangles),
-                                                              Parts{std::as_bytes(std::span(&record, 1))},
-                                                              one_part(tree.binary_nodes),
-                                                              one_part(tree.oriented_nodes),
-                                                              one_part(tree.triangles),
-                                                              one_part(tree.wide_nodes),
-                                                              one_part(tree.blocks),
-                                                              one_part(tree.binary_top),
-                                                              one_part(tree.oriented_top),
-                                                              one_part(tree.wide_top),
-                                                              one_part(tree.instances),
-                                                              one_part(tree.first_triangles)};
+    const std::array<Parts, section_kinds.size()> sections = {
+        Parts{std::as_bytes(std::span(outline))},
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.positions; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.triangles; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.materials; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.normals; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.tangents; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.uvs[0]; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.uvs[1]; }),
+        of_meshes([](const Mesh& mesh) -> auto& { return mesh.colors; }),
+        Parts{std::as_bytes(std::span(looks))},
+        std::move(images),
+        Parts{std::as_bytes(std::span(&record, 1))},
+        one_part(tree.binary_nodes),
+        one_part(tree.oriented_nodes),
+        one_part(tree.triangles),
+        one_part(tree.wide_nodes),
+        one_part(tree.blocks),
+        one_part(tree.binary_top),
+        one_part(tree.oriented_top),
+        one_part(tree.wide_top),
+        one_part(tree.instances),
+        one_part(tree.first_triangles)};
     const std::vector<SectionEntry> table = table_of(sections);
     Header header{magic, bxw_version, static_cast<std::uint32_t>(table.size()), table.back().offset + table.back().size,
                   0};

@@ -53,7 +53,9 @@ private:
             }
             if (!picture_format(image.bytes)) document_.fail(where, "is neither PNG nor JPEG");
         } catch (const InputError& error) {
-            warnings_.add(where, "left out with the textures that show it: " + std::string(error.what()));
+            const std::string prefix = error.file + ": " + error.where + ": ";
+            warnings_.add(error.where, std::string(error.what()).substr(prefix.size()) +
+                                           "; left out with the textures that show it");
             return std::nullopt;
         }
         scene_.images.push_back(std::move(image));

@@ -16,9 +16,9 @@ struct BxwFile {
 };
 
 /// Version that save_bxw writes and the only one that load_bxw reads.
-inline constexpr std::uint32_t bxw_version = 2;
+inline constexpr std::uint32_t bxw_version = 3;
 
-/// Writes scene geometry and tree as a little-endian container (magic, version, section table, checksum per section;
+/// Writes scene and tree as a little-endian container (magic, version, section table, checksum per section;
 /// host/io/bxw_format.hpp has the layout), atomically: on failure nothing is left under `file`. Throws InputError when
 /// scene or tree does not validate, so that no file is written that load_bxw refuses, or when the file cannot be
 /// written. O(bytes); copies no big array.

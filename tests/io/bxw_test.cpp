@@ -52,8 +52,13 @@ void poke(std::string& text, std::size_t offset, T value) {
 constexpr std::size_t scene_section = 0;
 constexpr std::size_t positions_section = 1;
 constexpr std::size_t triangles_section = 2;
-constexpr std::size_t tree_section = 3;
-constexpr std::size_t binary_nodes_section = 4;
+constexpr std::size_t materials_section = 3;
+constexpr std::size_t normals_section = 4;
+constexpr std::size_t uvs_section = 6;
+constexpr std::size_t looks_section = 9;
+constexpr std::size_t images_section = 10;
+constexpr std::size_t tree_section = 11;
+constexpr std::size_t binary_nodes_section = 12;
 
 } // namespace
 
@@ -103,12 +108,12 @@ TEST_CASE("the file on disk has the documented layout") {
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(bytes.substr(0, 8) == "\x89"
                                 "BXW\r\n\x1a\n");
-    CHECK(bytes.substr(8, 4) == std::string("\x02\0\0\0", 4));  // version 2, little-endian
-    CHECK(bytes.substr(12, 4) == std::string("\x0e\0\0\0", 4)); // fourteen sections
+    CHECK(bytes.substr(8, 4) == std::string("\x03\0\0\0", 4));  // version 3, little-endian
+    CHECK(bytes.substr(12, 4) == std::string("\x16\0\0\0", 4)); // twenty-two sections
     CHECK(std::string(bytes.data() + 32) == "scene");
-    // 32 bytes of header and 14 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    // 32 bytes of header and 22 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
     const auto table = table_of(bytes);
-    CHECK(table[0].offset == 704);
+    CHECK(table[0].offset == 1088);
     CHECK(table[1].size == 42 * 12);
     float x = 0;
     std::memcpy(&x, bytes.data() + table[1].offset + 12, sizeof x);
@@ -243,15 +248,27 @@ TEST_CASE("counts beyond their section are refused before memory is taken") {
     auto sections = original;
     sections[scene_section] += '\0';
     CHECK(mentions(refusal(seal(sections)), "section scene"));
+
+    // Of looks: the materials, the name of the first; and the last 8 bytes are the length of the last image.
+    const std::size_t last = original[looks_section].size() - 8;
+    for (const std::size_t offset : {std::size_t{0}, std::size_t{8}, last}) {
+        for (const std::uint64_t count : {std::uint64_t{1} << 40, ~std::uint64_t{0}, std::uint64_t{1} << 63}) {
+            sections = original;
+            poke(sections[looks_section], offset, count);
+            CHECK(mentions(refusal(seal(sections)), offset == last ? "section images" : "section looks"));
+        }
+    }
 }
 
-TEST_CASE("the scene section is refused when it is cut at any byte") {
+TEST_CASE("the sections of scene and looks are refused when they are cut at any byte") {
     const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
-    for (std::size_t size = 0; size < original[scene_section].size(); ++size) {
-        CAPTURE(size);
-        auto sections = original;
-        sections[scene_section].resize(size);
-        CHECK(mentions(refusal(seal(sections)), "section scene"));
+    for (const std::size_t section : {scene_section, looks_section}) {
+        for (std::size_t size = 0; size < original[section].size(); ++size) {
+            CAPTURE(size);
+            auto sections = original;
+            sections[section].resize(size);
+            CHECK(mentions(refusal(seal(sections)), section == scene_section ? "section scene" : "section looks"));
+        }
     }
 }
 
@@ -266,6 +283,14 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(hostile([&](auto& s) { poke(s[positions_section], 0, nan); }) != "accepted");
     CHECK(hostile([](auto& s) { poke(s[triangles_section], 0, 3u); }) != "accepted"); // of 3 vertices
+    CHECK(mentions(hostile([](auto& s) { poke(s[materials_section], 0, 2u); }), "meshes[1].materials[0]")); // of two
+    CHECK(mentions(hostile([&](auto& s) { poke(s[normals_section], 0, nan); }), "meshes[1].normals[0]"));
+    CHECK(mentions(hostile([&](auto& s) { poke(s[uvs_section], 4, 1e30f); }), "meshes[1].uvs[0]"));
+    CHECK(mentions(hostile([](auto& s) { s[normals_section].clear(); }), "section normals"));
+    CHECK(mentions(hostile([](auto& s) { s[images_section][0] = 'G'; }), "images[0]"));
+    // Base colour, and the texture of the first input, behind two counts, a name of 10 bytes and the factors.
+    CHECK(mentions(hostile([&](auto& s) { poke(s[looks_section], 26, nan); }), "materials[0].base_color"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[looks_section], 90, 3u); }), "materials[0].base_color_texture"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 0, 2u); }), "layout"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));

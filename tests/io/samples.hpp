@@ -10,7 +10,8 @@
 namespace boxwood::test {
 
 /// Meshes of 1 and 37 triangles (37: the wide tree needs two levels, 32 fit in one), three instances (the first mesh
-/// twice), one camera of each kind, a warning and counts.
+/// twice), one camera of each kind, a warning and counts; the second mesh has every attribute, and there are materials, textures,
+/// pictures and lights of every kind.
 Scene sample_scene();
 
 /// The tree of a scene, halved by triangle order. Quality does not matter here; every promise of TreeImage does. With
