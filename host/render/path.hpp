@@ -3,17 +3,13 @@
 #pragma once
 
 #include "boxwood/appearance.hpp"
-#include "boxwood/environment.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/render_options.hpp"
-#include "boxwood/scene.hpp"
 #include "boxwood/tree.hpp"
+#include "render/environment.hpp"
 #include "shared/camera.h"
 
 namespace boxwood {
-
-/// An environment on a device; what it is made of is up to environment.cpp.
-struct EnvironmentMap;
 
 /// What light travels through. Referenced, not owned; everything is of one scene on one device.
 struct World {
@@ -38,7 +34,9 @@ struct PrimaryHits {
 };
 
 /// Sample number `sample` (of options.samples) of the pixels of `primary`: one path each, its own camera ray given. What it is
-/// depends on (options, camera, pixel, sample) alone. Throws CapacityError, before any work, when the queues do not fit.
+/// depends on (options, camera, pixel, sample) alone. Of `options`, integrator and primary are not read. A path passes at most
+/// BOXWOOD_MOST_LAYERS surfaces with alpha. Stages in the profile: shade, shadow, compact, trace. Throws InputError for arrays of
+/// different sizes, and CapacityError, before any work, for 2^30 pixels or more or when the queues do not fit.
 void trace_paths(Device& device, const World& world, const LightOptions& options, std::uint32_t sample,
                  const PrimaryHits& primary, SampleLight light);
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Shadow rays through surfaces that let light pass: each hit takes its share, and the ray goes on behind it. Macros:
+// render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
+//
+// GROUP_SIZE  work-items per work-group.
+// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2
+#include "render/shading_point.h"
+#include "shared/path.h"
+
+#ifndef GROUP_SIZE
+#error "define GROUP_SIZE"
+#endif
+
+/// The share of light that the surface at a hit lets pass; textures at their finest.
+inline float passed_share(const SceneArrays* scene, Hit hit) {
+    Place place;
+    place_of(scene, hit, &place);
+#if UV_SETS
+    place.weight_x = place.weight_y = (float2)(0.0f);
+#endif
+    global const MaterialRecord* material = scene->materials + place.material;
+    if (!(material->flags & (BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND))) return 0.0f;
+    return 1.0f - stopped_share(material, color_at(scene, &place).w);
+}
+
+/// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of which
+/// there is at most one each, and those whose light passes their surface are moved to the front of their slice to go on behind
+/// it. A slice is `length` consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier: work-items share
+/// nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows(
+    SCENE_PARAMETERS, global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
+    global ShadowLight* lights, global uint* kept, global float* direct, global float* indirect) {
+    const uint slice = (uint)get_global_id(0);
+    if (slice >= slices) return;
+    const SceneArrays scene = SCENE_ARRAYS;
+    const uint begin = slice * length, end = begin + min(length, count - begin);
+    uint place = begin;
+    for (uint i = begin; i < end; ++i) {
+        ShadowLight light = lights[i];
+        if (light.pixel == BOXWOOD_NONE) continue;
+        const Hit hit = hits[i];
+        if (hit.primitive == BOXWOOD_NONE) {
+            const size_t pixel = light.pixel & ~BOXWOOD_INDIRECT;
+            global float* sum = (light.pixel & BOXWOOD_INDIRECT ? indirect : direct) + 3 * pixel;
+            vstore3(vload3(0, sum) + vload3(0, light.value), 0, sum);
+            continue;
+        }
+        const float passed = passed_share(&scene, hit);
+        if (!(passed > 0.0f)) continue;
+        vstore3(vload3(0, light.value) * passed, 0, light.value);
+        Ray ray = rays[i];
+        ray.t_min = hit.t;
+        rays[place] = ray;
+        lights[place] = light;
+        ++place;
+    }
+    kept[slice] = place - begin;
+    if (slice == slices - 1) kept[slices] = 0;
+}

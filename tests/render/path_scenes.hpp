@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Scenes with known light.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "boxwood/scene.hpp"
+#include "scene/transform.hpp"
+
+namespace boxwood::test {
+
+inline Material matt(const glm::vec3& color) {
+    Material material = plain_material();
+    material.base_color = glm::vec4(color, 1.0f);
+    return material;
+}
+
+inline Material metal(const glm::vec3& color, float roughness) {
+    Material material;
+    material.base_color = glm::vec4(color, 1.0f);
+    material.roughness = roughness;
+    return material;
+}
+
+inline Material lamp(const glm::vec3& radiance) {
+    Material material = matt(glm::vec3(0.0f));
+    material.emission = radiance;
+    return material;
+}
+
+/// Adds a parallelogram that faces cross(u, v), of a material of its own.
+inline void add_quad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v,
+                     const Material& material) {
+    const auto index = static_cast<std::uint32_t>(scene.materials.size());
+    Mesh mesh{"quad", {corner, corner + u, corner + u + v, corner + v}, {{0, 1, 2}, {0, 2, 3}}};
+    mesh.materials = {index, index};
+    scene.materials.push_back(material);
+    scene.instances.push_back({"quad", static_cast<std::uint32_t>(scene.meshes.size()), glm::mat4(1.0f)});
+    scene.meshes.push_back(mesh);
+}
+
+/// The plane y = 0 over [-4, 4]^2, facing up.
+inline void add_floor(Scene& scene, const Material& material) {
+    add_quad(scene, {-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, material);
+}
+
+/// Looks along -y at [-half, half]^2 of the floor.
+inline Camera camera_above(float half, float height = 2.0f) {
+    return {"above", look_at({0, height, 0}, {0, 0, 0}, {0, 0, -1}), false, 0.8f, half};
+}
+
+/// Where the ray of pixel (x, y) of that camera meets the floor.
+inline glm::dvec3 floor_point(float half, std::uint32_t across, std::uint32_t x, std::uint32_t y) {
+    const double pixel = 2.0 * half / across;
+    return {-half + (x + 0.5) * pixel, 0.0, -half + (y + 0.5) * pixel};
+}
+
+/// Irradiance at p with normal n from a polygon of unit radiance that p sees whole (Lambert 1760), radiance 1.
+inline double polygon_irradiance(const glm::dvec3& p, const glm::dvec3& n, const std::vector<glm::dvec3>& corners) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3 a = glm::normalize(corners[i] - p);
+        const glm::dvec3 b = glm::normalize(corners[(i + 1) % corners.size()] - p);
+        const glm::dvec3 edge = glm::cross(a, b);
+        sum += std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0)) * glm::dot(glm::normalize(edge), n);
+    }
+    return 0.5 * std::abs(sum);
+}
+
+/// glTF's metallic-roughness model in double precision: f cos, by the formulas of appendix B of its specification.
+inline glm::dvec3 reference_bsdf(const Material& m, const glm::dvec3& n, const glm::dvec3& wo, const glm::dvec3& wi) {
+    const double cos_o = glm::dot(n, wo), cos_i = glm::dot(n, wi);
+    if (cos_o <= 0 || cos_i <= 0) return glm::dvec3(0.0);
+    const glm::dvec3 h = glm::normalize(wo + wi), color(m.base_color);
+    const double a2 = std::pow(double(m.roughness), 4.0), cos_h = glm::dot(n, h), facing = glm::dot(wo, h);
+    const double d = a2 / (std::numbers::pi * std::pow(cos_h * cos_h * (a2 - 1) + 1, 2.0));
+    const double visible =
+        0.5 / (cos_i * std::sqrt(cos_o * cos_o * (1 - a2) + a2) + cos_o * std::sqrt(cos_i * cos_i * (1 - a2) + a2));
+    const double schlick = std::pow(1 - facing, 5.0);
+    const double dielectric = m.specular * (0.04 + 0.96 * schlick);
+    const glm::dvec3 plastic = (1 - dielectric) * color / std::numbers::pi + dielectric * d * visible;
+    const glm::dvec3 metallic = (color + (1.0 - color) * schlick) * d * visible;
+    return cos_i * glm::mix(plastic, metallic, double(m.metallic));
+}
+
+/// A sphere of latitudes and longitudes, with or without vertex normals.
+inline Mesh sphere_mesh(std::uint32_t across, bool smooth) {
+    Mesh mesh{"sphere", {}, {}};
+    for (std::uint32_t j = 0; j <= across; ++j)
+        for (std::uint32_t i = 0; i <= 2 * across; ++i) {
+            const double theta = std::numbers::pi * j / across, phi = std::numbers::pi * i / across;
+            const glm::vec3 p(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+            mesh.positions.push_back(p);
+            if (smooth) mesh.normals.push_back(p);
+        }
+    const std::uint32_t row = 2 * across + 1;
+    for (std::uint32_t j = 0; j < across; ++j)
+        for (std::uint32_t i = 0; i < 2 * across; ++i) {
+            const std::uint32_t a = j * row + i, b = a + row;
+            if (j > 0) mesh.triangles.push_back({a, b, a + 1});
+            if (j + 1 < across) mesh.triangles.push_back({a + 1, b, b + 1});
+        }
+    return mesh;
+}
+
+} // namespace boxwood::test

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Light against closed forms.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "path_picture.hpp"
+#include "path_scenes.hpp"
+#include "support.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A pixel's red against what it should be, for light that has no noise.
+void check_pixels(const Scene& scene, float half, double (*expected)(const glm::dvec3&, const Material&)) {
+    const LitScene lit(test_device(), scene);
+    const Frame frame{8, 8};
+    LightOptions options;
+    options.samples = 1;
+    options.depth = 1;
+    const Picture picture = take_picture(test_device(), lit, camera_above(half), frame, options);
+    for (std::uint32_t y = 0; y < 8; ++y)
+        for (std::uint32_t x = 0; x < 8; ++x) {
+            const double wanted = expected(floor_point(half, 8, x, y), scene.materials[0]);
+            const double found = picture.light(3 * (8 * y + x));
+            CAPTURE(x);
+            CAPTURE(y);
+            CHECK(std::abs(found - wanted) <= 1e-4 * wanted);
+        }
+    CHECK(picture.unusable == 0);
+}
+
+const glm::dvec3 up(0, 1, 0);
+
+Light punctual(LightKind kind) {
+    Light light;
+    light.kind = kind;
+    light.intensity = {5, 4, 3};
+    light.position = {0.5f, 1.5f, -0.25f};
+    light.direction = {0.0f, -0.8f, 0.6f};
+    return light;
+}
+
+Estimate quad_estimate(Strategy strategy, SamplerKind sampler, const LitScene& lit, float half) {
+    LightOptions options;
+    options.strategy = strategy;
+    options.sampler = sampler;
+    options.samples = small_sizes() ? 4 : 256;
+    options.depth = 1;
+    options.seed = test_seed();
+    return estimate(test_device(), lit, camera_above(half, 0.5f), {4, 4}, options, small_sizes() ? 3 : 12);
+}
+
+} // namespace
+
+TEST_CASE("path: a plane under a point light") {
+    Scene scene;
+    add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+    scene.lights = {punctual(LightKind::point)};
+    check_pixels(scene, 1.0f, [](const glm::dvec3& p, const Material& m) {
+        const glm::dvec3 l = glm::dvec3(0.5, 1.5, -0.25) - p;
+        return 5 * glm::dot(reference_bsdf(m, up, up, glm::normalize(l)), glm::dvec3(1, 0, 0)) / glm::dot(l, l);
+    });
+    // With a range: nothing beyond it, the window of KHR_lights_punctual before.
+    scene.lights[0].range = 2.0f;
+    check_pixels(scene, 2.0f, [](const glm::dvec3& p, const Material& m) {
+        const glm::dvec3 l = glm::dvec3(0.5, 1.5, -0.25) - p;
+        const double window = std::max(1 - std::pow(glm::length(l) / 2, 4), 0.0);
+        return 5 * window * reference_bsdf(m, up, up, glm::normalize(l)).x / glm::dot(l, l);
+    });
+}
+
+TEST_CASE("path: a plane of metal and one with a coat under a directional light") {
+    Scene scene;
+    Material shiny = metal({0.9f, 0.6f, 0.3f}, 0.5f);
+    for (const float metallic : {0.0f, 0.4f, 1.0f}) {
+        shiny.metallic = metallic;
+        scene = {};
+        add_floor(scene, shiny);
+        scene.lights = {punctual(LightKind::directional)};
+        check_pixels(scene, 1.0f, [](const glm::dvec3&, const Material& m) {
+            return 5 * reference_bsdf(m, up, up, glm::dvec3(0, 0.8, -0.6)).x;
+        });
+    }
+}
+
+TEST_CASE("path: a plane under a spot") {
+    Scene scene;
+    add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+    scene.lights = {punctual(LightKind::spot)};
+    scene.lights[0].inner_cone = 0.1f;
+    scene.lights[0].outer_cone = 0.6f;
+    check_pixels(scene, 1.5f, [](const glm::dvec3& p, const Material& m) {
+        const glm::dvec3 l = glm::dvec3(0.5, 1.5, -0.25) - p, d = glm::normalize(l);
+        const double cosine = -glm::dot(d, glm::dvec3(0, -0.8, 0.6));
+        const double edge = (cosine - std::cos(0.6)) / (std::cos(0.1) - std::cos(0.6));
+        return 5 * std::pow(glm::clamp(edge, 0.0, 1.0), 2) * reference_bsdf(m, up, up, d).x / glm::dot(l, l);
+    });
+}
+
+TEST_CASE("path: a plane under a square that emits, by every strategy and sampler") {
+    Scene scene;
+    add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+    add_quad(scene, {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, lamp(glm::vec3(3.0f))); // faces down
+    const LitScene lit(test_device(), scene);
+    const float half = 0.5f;
+    double expected = 0.0;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        const glm::dvec3 p = floor_point(half, 4, i % 4, i / 4);
+        expected += 0.5 / pi * 3 / 16 *
+                    polygon_irradiance(p, up, {{-0.5, 1, -0.5}, {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}});
+    }
+    for (const Strategy strategy : {Strategy::mis, Strategy::lights, Strategy::bsdf})
+        for (const SamplerKind sampler : {SamplerKind::sobol, SamplerKind::stratified, SamplerKind::random}) {
+            CAPTURE(static_cast<int>(strategy));
+            CAPTURE(static_cast<int>(sampler));
+            const Estimate found = quad_estimate(strategy, sampler, lit, half);
+            // Roundings beside the noise, which points in nets have little of.
+            CHECK(std::abs(found.mean - expected) < 3 * found.error + (small_sizes() ? 0.3 : 1e-3) * expected);
+            // 2 % would be seen.
+            if (!small_sizes()) CHECK(found.error < 0.005 * expected);
+        }
+}
+
+TEST_CASE("path: a lamp shines to its front, to both sides when it is double-sided") {
+    for (const bool both : {false, true}) {
+        Scene scene;
+        add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+        Material material = lamp(glm::vec3(3.0f));
+        material.double_sided = both;
+        add_quad(scene, {-0.5f, 1, 0.5f}, {1, 0, 0}, {0, 0, -1}, material); // faces up
+        const LitScene lit(test_device(), scene);
+        for (const Strategy strategy : {Strategy::mis, Strategy::lights, Strategy::bsdf}) {
+            const Estimate found = quad_estimate(strategy, SamplerKind::sobol, lit, 0.5f);
+            CHECK((found.mean > 0.0) == both);
+        }
+    }
+}
+
+TEST_CASE("path: a white sphere in a white world cannot be seen") {
+    // Every reflected ray of a convex body leaves: its light is its albedo, 1, whatever the tessellation.
+    Scene scene;
+    scene.materials = {matt(glm::vec3(1.0f))};
+    scene.meshes = {sphere_mesh(small_sizes() ? 4 : 12, false)};
+    scene.meshes[0].materials.assign(scene.meshes[0].triangles.size(), 0);
+    scene.instances = {{"sphere", 0, glm::mat4(1.0f)}};
+    Environment constant, picture;
+    constant.radiance = glm::vec3(1.0f);
+    picture.width = 16;
+    picture.height = 8;
+    picture.pixels.assign(128, glm::vec3(1.0f));
+    const Camera camera{"camera", look_at({0, 1, 3}, {0, 0, 0}), false, 0.8f, 1.1f};
+    for (const Environment* around : {&constant, &picture})
+        for (const Strategy strategy : {Strategy::mis, Strategy::lights, Strategy::bsdf}) {
+            CAPTURE(around->width);
+            CAPTURE(static_cast<int>(strategy));
+            const LitScene lit(test_device(), scene, *around);
+            LightOptions options;
+            options.strategy = strategy;
+            options.samples = small_sizes() ? 4 : 64;
+            options.seed = test_seed();
+            const Estimate found = estimate(test_device(), lit, camera, {16, 16}, options, 6);
+            CHECK(std::abs(found.mean - 1.0) < 3 * found.error + (small_sizes() ? 0.1 : 1e-3));
+            CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
+        }
+}
+
+TEST_CASE("path: a closed white room returns what its lamp gives, bounce by bounce") {
+    // Inside a sphere whose wall emits 1 and reflects a half, light after n bounces is the sum of 2^-k, k = 0 .. n.
+    Scene scene;
+    Material wall = matt(glm::vec3(0.5f));
+    wall.emission = glm::vec3(1.0f);
+    wall.double_sided = true;
+    scene.materials = {wall};
+    scene.meshes = {sphere_mesh(small_sizes() ? 4 : 8, false)};
+    scene.meshes[0].materials.assign(scene.meshes[0].triangles.size(), 0);
+    scene.instances = {{"sphere", 0, glm::mat4(1.0f)}};
+    const LitScene lit(test_device(), scene);
+    const Camera camera{"camera", look_at({0.2, 0.1, 0}, {0, 0, -1}), true, 1.2f};
+    for (const std::uint32_t depth : {0u, 1u, 2u, 5u}) {
+        CAPTURE(depth);
+        LightOptions options;
+        options.samples = small_sizes() ? 4 : 64;
+        options.depth = depth;
+        options.seed = test_seed();
+        const Estimate found = estimate(test_device(), lit, camera, {8, 8}, options, 6);
+        CHECK(std::abs(found.mean - (2.0 - std::exp2(-double(depth)))) < 3 * found.error + 1e-3);
+        options.strategy = Strategy::bsdf;
+        const Picture picture = take_picture(test_device(), lit, camera, {8, 8}, options);
+        // Without a light to sample every path brings the same, but for roulette from the third bounce on.
+        if (depth <= 2)
+            for (std::size_t i = 0; i < picture.direct.size(); ++i) {
+                CHECK(picture.direct[i] == doctest::Approx(depth == 0 ? 1.0 : 1.5));
+                CHECK(picture.indirect[i] == doctest::Approx(depth < 2 ? 0.0 : 0.25));
+            }
+    }
+}
+
+TEST_CASE("path: shadows behind what lets light pass") {
+    // n layers that stop 0.3 each between a point light and the floor, seen from below them.
+    for (const std::uint32_t layers : {0u, 1u, 3u}) {
+        Scene scene;
+        add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+        Material veil = matt(glm::vec3(0.0f));
+        veil.alpha_mode = AlphaMode::blend;
+        veil.base_color.w = 0.3f;
+        for (std::uint32_t i = 0; i < layers; ++i)
+            add_quad(scene, {-4, 0.6f + 0.1f * float(i), 4}, {8, 0, 0}, {0, 0, -8}, veil);
+        // Cut out where alpha is under the cutoff, and there where it is not.
+        Material mask = veil;
+        mask.alpha_mode = AlphaMode::mask;
+        add_quad(scene, {-4, 1.2f, 4}, {8, 0, 0}, {0, 0, -8}, mask);
+        scene.lights = {punctual(LightKind::point)};
+        LightOptions options;
+        options.samples = 1;
+        options.depth = 1;
+        const auto middle = [&](const Scene& s) {
+            const LitScene lit(test_device(), s);
+            return take_picture(test_device(), lit, camera_above(0.1f, 0.5f), {1, 1}, options).light(0);
+        };
+        const glm::dvec3 l(0.5, 1.5, -0.25);
+        const double open = 5 * 0.5 / pi * 1.5 / std::pow(glm::length(l), 3);
+        CHECK(middle(scene) == doctest::Approx(open * std::pow(0.7, layers)).epsilon(1e-4));
+        scene.materials.back().base_color.w = 0.6f;
+        CHECK(middle(scene) == 0.0);
+    }
+}
+
+TEST_CASE("path: seen through what lets light pass") {
+    // A lamp of 2 behind two unlit layers of radiance 1 that stop a half each: 0.5 + 0.25 + 2 * 0.25, at any depth.
+    Scene scene;
+    add_floor(scene, lamp(glm::vec3(2.0f)));
+    Material veil = matt(glm::vec3(1.0f));
+    veil.alpha_mode = AlphaMode::blend;
+    veil.base_color.w = 0.5f;
+    veil.unlit = true;
+    for (const float height : {0.5f, 1.0f}) add_quad(scene, {-4, height, 4}, {8, 0, 0}, {0, 0, -8}, veil);
+    const LitScene lit(test_device(), scene);
+    LightOptions options;
+    options.samples = small_sizes() ? 16 : 256;
+    options.depth = 0;
+    options.seed = test_seed();
+    const Estimate found = estimate(test_device(), lit, camera_above(1.0f), {4, 4}, options, 8);
+    CHECK(std::abs(found.mean - 1.25) < 3 * found.error + 1e-3);
+}
