@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "boxwood/procedural.hpp"
 #include "boxwood/scene.hpp"
 #include "scene/transform.hpp"
 
@@ -107,6 +108,22 @@ inline Mesh sphere_mesh(std::uint32_t across, bool smooth) {
             if (j + 1 < across) mesh.triangles.push_back({a + 1, b, b + 1});
         }
     return mesh;
+}
+
+/// The Cornell box: a red and a green wall, a block of rough metal, a lamp.
+inline Scene cornell_scene() {
+    Scene scene = make_procedural("cornell");
+    scene.materials = {matt(glm::vec3(0.7f)), matt({0.6f, 0.06f, 0.05f}), matt({0.12f, 0.45f, 0.09f}),
+                       metal({0.9f, 0.7f, 0.4f}, 0.4f), lamp({17, 12, 6})};
+    const auto material_of_mesh = [](const std::string& name) {
+        if (name == "left wall") return 1u;
+        if (name == "right wall") return 2u;
+        if (name == "tall block") return 3u;
+        return name == "light" ? 4u : 0u;
+    };
+    for (Mesh& mesh : scene.meshes) mesh.materials.assign(mesh.triangles.size(), material_of_mesh(mesh.name));
+    scene.lights.clear();
+    return scene;
 }
 
 } // namespace boxwood::test
