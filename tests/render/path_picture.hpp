@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "boxwood/build.hpp"
+#include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
 #include "render/camera.hpp"
 #include "render/path.hpp"
