@@ -3,8 +3,7 @@
 //
 // GROUP_SIZE  work-items per work-group.
 // compile:
-#include "runtime/numerics.h"
-#include "shared/camera.h"
+#include "render/pixel_offset.h"
 #include "shared/ray.h"
 
 #ifndef GROUP_SIZE
@@ -12,10 +11,7 @@
 #endif
 
 inline Ray pixel_ray(global const CameraRecord* camera, int x, int y) {
-    // Odd integers below 2^24 but for the jitter: exact, and exactly opposite on opposite sides of the picture.
-    const float across = (float)(2 * x + 1 - (int)camera->width) + camera->jitter[0];
-    const float upward = (float)((int)camera->height - 2 * y - 1) + camera->jitter[1];
-    const float3 offset = across * vload3(0, camera->right) + upward * vload3(0, camera->up);
+    const float3 offset = offset_across(camera, x) * vload3(0, camera->right) + offset_upward(camera, y) * vload3(0, camera->up);
     float3 origin = vload3(0, camera->origin);
     float3 direction = vload3(0, camera->forward);
     if (camera->perspective) {
