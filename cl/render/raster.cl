@@ -23,7 +23,7 @@ typedef Triangle leaf_t;
 #define BESIDE 0x1p-16f
 
 /// The first of the ascending `keys` that is not below `key`.
-inline uint lower_bound(global const uint* keys, uint count, uint key) {
+INLINE uint lower_bound(global const uint* keys, uint count, uint key) {
     uint low = 0, high = count;
     while (low < high) {
         const uint middle = low + (high - low) / 2;
@@ -36,7 +36,7 @@ inline uint lower_bound(global const uint* keys, uint count, uint key) {
 }
 
 /// The point of the triangle that the edge functions, `value` of each, are for.
-inline void interpolate(const LocalRay* ray, global const Triangle* surface, const float* value, Crossing* crossing) {
+INLINE void interpolate(const LocalRay* ray, global const Triangle* surface, const float* value, Crossing* crossing) {
     const float3 weight = fmax((float3)(fabs(value[0]), fabs(value[1]), fabs(value[2])), FLT_MIN);
     const float sum = weight.x + weight.y + weight.z;
     crossing->u = weight.y / sum;
@@ -49,7 +49,7 @@ inline void interpolate(const LocalRay* ray, global const Triangle* surface, con
 
 /// Puts the triangle into the pixel of `ray` at offset (x, y) if it is there and nearest. Triangles come in ascending order, so that
 /// of equal distances the first is kept, as in traversal.
-inline void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, global const Ray* ray, float x,
+INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, global const Ray* ray, float x,
                        float y, const float* value, global Hit* hit) {
     const float4 origin = vload4(0, ray->origin), direction = vload4(0, ray->direction);
     if (!is_valid_ray(origin, direction)) return;
@@ -78,7 +78,7 @@ inline void draw_pixel(global const ScreenTriangle* triangle, global const Insta
 }
 
 /// The pixels of a triangle in the rows and columns given.
-inline void draw_triangle(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
+INLINE void draw_triangle(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
                           global const InstanceRecord* place, int left, int right, int top, int bottom,
                           global const Ray* rays, global Hit* hits) {
     Edges edges;
@@ -96,7 +96,7 @@ inline void draw_triangle(global const CameraRecord* camera, const Window* windo
             const bool negative = value[0] <= s0 && value[1] <= s1 && value[2] <= s2;
             if (!positive && !negative) continue;
             const long pixel = first + column;
-            if (pixel >= 0 && pixel < (long)window->count)
+            if (pixel >= 0 && pixel < (long)window->count && triangle->nearest < hits[pixel].t)
                 draw_pixel(triangle, place, rays + pixel, x, y, value, hits + pixel);
         }
     }

@@ -6,6 +6,7 @@
 #include "render/exact_sign.h"
 #include "render/pixel_offset.h"
 #include "render/surface.h"
+#include "runtime/inline.h"
 #include "shared/raster.h"
 
 // Pixels are looked at when they are this close outside of an edge, relative to the magnitudes that meet in its function, so
@@ -20,7 +21,7 @@ typedef struct Window {
     int tiles_across;
 } Window;
 
-inline void make_window(global const CameraRecord* camera, uint first, uint count, Window* window) {
+INLINE void make_window(global const CameraRecord* camera, uint first, uint count, Window* window) {
     window->first = first;
     window->count = count;
     window->width = (int)camera->width;
@@ -35,13 +36,13 @@ typedef struct Eye {
     bool perspective;
 } Eye;
 
-inline float3 measuring_axis(float3 axis) {
+INLINE float3 measuring_axis(float3 axis) {
     const float largest = fmax(fmax(fabs(axis.x), fabs(axis.y)), fabs(axis.z));
     const float3 scaled = axis / largest;
     return scaled / dot(scaled, scaled) / largest;
 }
 
-inline void make_eye(global const CameraRecord* camera, Eye* eye) {
+INLINE void make_eye(global const CameraRecord* camera, Eye* eye) {
     eye->origin = vload3(0, camera->origin);
     eye->right = measuring_axis(vload3(0, camera->right));
     eye->up = measuring_axis(vload3(0, camera->up));
@@ -51,7 +52,7 @@ inline void make_eye(global const CameraRecord* camera, Eye* eye) {
 
 /// A vertex placed by `rows` as the eye sees it. The origins are subtracted first, which far from the world's origin keeps what
 /// is left. A vertex gives the same in every triangle.
-inline float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
+INLINE float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
     const float3 from_eye =
         (float3)(fma(rows[0], p.x, fma(rows[1], p.y, fma(rows[2], p.z, rows[3] - eye->origin.x))),
                  fma(rows[4], p.x, fma(rows[5], p.y, fma(rows[6], p.z, rows[7] - eye->origin.y))),
@@ -60,20 +61,21 @@ inline float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
 }
 
 /// Offsets X between which a point with x < X w lies to the left of all of the triangle, or right of it.
-inline void bound_ratio(float a, float b, float c, float wa, float wb, float wc, float* low, float* high) {
-    *low = fmin(fmin(a / wa, b / wb), c / wc);
-    *high = fmax(fmax(a / wa, b / wb), c / wc);
+INLINE void bound_ratio(float a, float b, float c, float wa, float wb, float wc, float* low, float* high) {
+    const float ra = a / wa, rb = b / wb, rc = c / wc;
+    *low = LESSER(LESSER(ra, rb), rc);
+    *high = GREATER(GREATER(ra, rb), rc);
 }
 
 /// All of the triangle beyond the line that goes through the eye and `limit`.
-inline bool all_beyond(float limit, float a, float b, float c, float wa, float wb, float wc) {
+INLINE bool all_beyond(float limit, float a, float b, float c, float wa, float wb, float wc) {
     const float margin = EDGE_SLACK * fabs(limit);
     return a > limit * wa + margin * fabs(wa) && b > limit * wb + margin * fabs(wb) && c > limit * wc + margin * fabs(wc);
 }
 
 /// The pixels from *first to *last of `count` whose offsets 2 i + 1 - count + jitter are from `low` to `high`, or a little
 /// outside.
-inline void pixels_between(float low, float high, int count, float jitter, int* first, int* last) {
+INLINE void pixels_between(float low, float high, int count, float jitter, int* first, int* last) {
     const float middle = (float)(count - 1) - jitter;
     const float margin = EDGE_SLACK * (fmin(fmax(fabs(low), fabs(high)), (float)count) + (float)count);
     *first = (int)clamp(ceil(0.5f * (low + middle - margin)), 0.0f, (float)count);
@@ -81,10 +83,12 @@ inline void pixels_between(float low, float high, int count, float jitter, int* 
 }
 
 /// Fills corners and bounds from what seen_from says of the vertices. False for a triangle that no pixel shows.
-inline bool place_on_screen(global const CameraRecord* camera, const Window* window, const float3* seen,
+INLINE bool place_on_screen(global const CameraRecord* camera, const Window* window, const float3* seen,
                             ScreenTriangle* triangle) {
     const float nearest = fmin(fmin(seen[0].z, seen[1].z), seen[2].z), farthest = fmax(fmax(seen[0].z, seen[1].z), seen[2].z);
     if (!(farthest > 0.0f)) return false;
+    // Distances are at least depths; less far more than all roundings.
+    triangle->nearest = nearest - 0x1p-10f * farthest;
     float x[3], y[3], w[3], largest = 0.0f;
     for (int i = 0; i < 3; ++i) {
         x[i] = seen[i].x;
@@ -93,16 +97,17 @@ inline bool place_on_screen(global const CameraRecord* camera, const Window* win
         largest = fmax(largest, fmax(fmax(fabs(x[i]), fabs(y[i])), fabs(w[i])));
         if (!(fabs(x[i]) <= 0x1p120f && fabs(y[i]) <= 0x1p120f && fabs(w[i]) <= 0x1p120f)) return false;
     }
-    const float right_end = (float)window->width + 2.0f, top_end = (float)camera->height + 2.0f;
-    if (all_beyond(right_end, x[0], x[1], x[2], w[0], w[1], w[2]) ||
-        all_beyond(right_end, -x[0], -x[1], -x[2], w[0], w[1], w[2]) ||
-        all_beyond(top_end, y[0], y[1], y[2], w[0], w[1], w[2]) ||
-        all_beyond(top_end, -y[0], -y[1], -y[2], w[0], w[1], w[2]))
-        return false;
     float low = -INFINITY, high = INFINITY, down = -INFINITY, upward = INFINITY;
     if (!camera->perspective || nearest > 0.0f) {
         bound_ratio(x[0], x[1], x[2], w[0], w[1], w[2], &low, &high);
         bound_ratio(y[0], y[1], y[2], w[0], w[1], w[2], &down, &upward);
+    } else {
+        const float right_end = (float)window->width + 2.0f, top_end = (float)camera->height + 2.0f;
+        if (all_beyond(right_end, x[0], x[1], x[2], w[0], w[1], w[2]) ||
+            all_beyond(right_end, -x[0], -x[1], -x[2], w[0], w[1], w[2]) ||
+            all_beyond(top_end, y[0], y[1], y[2], w[0], w[1], w[2]) ||
+            all_beyond(top_end, -y[0], -y[1], -y[2], w[0], w[1], w[2]))
+            return false;
     }
     pixels_between(low, high, window->width, camera->jitter[0], &triangle->left, &triangle->right);
     // Rows count downwards, so that their offsets are those of the mirrored picture.
@@ -126,7 +131,7 @@ typedef struct Edges {
     float slack[3];
 } Edges;
 
-inline void make_edges(global const ScreenTriangle* triangle, float width, float height, Edges* edges) {
+INLINE void make_edges(global const ScreenTriangle* triangle, float width, float height, Edges* edges) {
     for (int i = 0; i < 3; ++i) {
         global const float* a = triangle->corners[(i + 1) % 3];
         global const float* b = triangle->corners[(i + 2) % 3];
@@ -152,7 +157,7 @@ inline int side_shown(global const ScreenTriangle* triangle, float x, float y) {
 }
 
 /// Whether the rectangle of offsets around (x, y), `reach_x` and `reach_y` to each side, may have a pixel of the triangle.
-inline bool may_touch(const Edges* edges, float x, float y, float reach_x, float reach_y) {
+INLINE bool may_touch(const Edges* edges, float x, float y, float reach_x, float reach_y) {
     bool positive = true, negative = true;
     for (int i = 0; i < 3; ++i) {
         const float3 edge = edges->edge[i];

@@ -14,7 +14,7 @@
 #endif
 
 /// The tiles that the triangle may have pixels in: their number, and unless `keys` is null the keys themselves.
-inline uint tiles_of(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
+INLINE uint tiles_of(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
                      global uint* keys) {
     const int left = triangle->left / BOXWOOD_TILE, right = triangle->right / BOXWOOD_TILE;
     const int top = (triangle->top - window->top) / BOXWOOD_TILE, bottom = (triangle->bottom - window->top) / BOXWOOD_TILE;

@@ -15,12 +15,13 @@ typedef struct ScreenTriangle {
     /// Homogeneous, in half pixels: corner (x, y, w) is seen at X = x / w, Y = y / w. All times one power of two.
     float corners[3][3];
     uint instance; ///< Of hits.
+    float nearest; ///< No point of it that a ray meets is as near as this.
     int left;      ///< The pixels that it may cover, both ends included.
     int right;
     int top;
     int bottom;
 } ScreenTriangle;
-BOXWOOD_SHARED_SIZE(ScreenTriangle, 104)
+BOXWOOD_SHARED_SIZE(ScreenTriangle, 108)
 
 BOXWOOD_SHARED_END
 #endif
