@@ -4,10 +4,14 @@
 #include <set>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
@@ -34,6 +38,12 @@ std::size_t sample_count(const Channel& channel) {
     return std::visit([](const auto& samples) { return samples.size(); }, channel.samples);
 }
 
+void check_name(const std::string& name, const std::string& where, const std::string& file) {
+    // OpenEXR stores names as C strings of at most 255 bytes.
+    if (name.empty() || name.size() > 255 || name.find('\0') != std::string::npos)
+        throw InputError(file, where, "a name must have 1 to 255 characters");
+}
+
 void check(const Image& image, const std::string& file) {
     constexpr auto largest = static_cast<std::uint32_t>(std::numeric_limits<int>::max() / 2); // of OpenEXR
     if (image.width == 0 || image.height == 0) throw InputError(file, "", "an image without pixels cannot be written");
@@ -44,16 +54,38 @@ void check(const Image& image, const std::string& file) {
     std::set<std::string_view> names;
     for (const Channel& channel : image.channels) {
         const std::string where = "channel " + channel.name;
-        // OpenEXR stores names as C strings of at most 255 bytes.
-        if (channel.name.empty() || channel.name.size() > 255 || channel.name.find('\0') != std::string::npos) {
-            throw InputError(file, where, "a channel's name must have 1 to 255 characters");
-        }
+        check_name(channel.name, where, file);
         if (!names.insert(channel.name).second) throw InputError(file, where, "the name is repeated");
         if (sample_count(channel) != pixels) {
             throw InputError(file, where,
                              "has " + std::to_string(sample_count(channel)) + " samples for " + std::to_string(pixels) +
                                  " pixels");
         }
+    }
+}
+
+void insert(Imf::Header& header, const std::string& name, const std::string& text) {
+    header.insert(name, Imf::StringAttribute(text));
+}
+void insert(Imf::Header& header, const std::string& name, float number) {
+    header.insert(name, Imf::FloatAttribute(number));
+}
+void insert(Imf::Header& header, const std::string& name, std::int32_t number) {
+    header.insert(name, Imf::IntAttribute(number));
+}
+void insert(Imf::Header& header, const std::string& name, const glm::mat4& matrix) {
+    Imath::M44f rows; // acts on rows: its rows are the columns
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) rows[i][j] = matrix[i][j];
+    header.insert(name, Imf::M44fAttribute(rows));
+}
+
+void insert_attributes(Imf::Header& header, const Image& image, const std::string& file) {
+    for (const auto& [name, attribute] : image.attributes) {
+        const std::string where = "attribute " + name;
+        check_name(name, where, file);
+        if (header.find(name) != header.end()) throw InputError(file, where, "is one of OpenEXR's own");
+        std::visit([&, &key = name](const auto& value) { insert(header, key, value); }, attribute);
     }
 }
 
@@ -68,6 +100,7 @@ Imf::Slice slice_of(const std::vector<T>& samples, std::uint32_t width) {
 void write(std::ostream& out, const Image& image, const std::string& file) {
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
+    insert_attributes(header, image, file);
     Imf::FrameBuffer pixels;
     for (const Channel& channel : image.channels) {
         const Imf::Slice slice =
@@ -88,6 +121,8 @@ void save_exr(const std::filesystem::path& file, const Image& image) {
     AtomicFile out(file);
     try {
         write(out.stream(), image, file.string());
+    } catch (const InputError&) {
+        throw;
     } catch (const std::exception& problem) {
         throw InputError(file.string(), "", std::string("OpenEXR cannot write it: ") + problem.what());
     }

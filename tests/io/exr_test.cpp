@@ -3,9 +3,13 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <doctest/doctest.h>
 
 #include "boxwood/error.hpp"
@@ -64,6 +68,39 @@ TEST_CASE("an EXR file gives back every channel, as OpenEXR reads it") {
     CHECK(read_channel<float>(in, "R", Imf::FLOAT) == red);
     CHECK(read_channel<std::uint32_t>(in, "instance.id", Imf::UINT) == ids);
     CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("an EXR file's header says what the image's attributes say, and nothing of the day") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "image.exr", again = folder.path() / "again.exr";
+    Image image{2, 2, {{"R", ramp(4)}}};
+    glm::mat4 matrix(1.0f);
+    matrix[3] = {5, 6, 7, 1}; // a translation: of columns in the last column, of rows in the last row
+    image.attributes = {{"integrator", std::string("path")}, {"fov", 0.5f}, {"samples", 12}, {"worldToCamera", matrix}};
+    save_exr(file, image);
+    save_exr(again, image);
+    CHECK(boxwood::test::read_bytes(file) == boxwood::test::read_bytes(again));
+
+    const Imf::InputFile in(file.c_str());
+    const Imf::Header& header = in.header();
+    CHECK(header.typedAttribute<Imf::StringAttribute>("integrator").value() == "path");
+    CHECK(header.typedAttribute<Imf::FloatAttribute>("fov").value() == 0.5f);
+    CHECK(header.typedAttribute<Imf::IntAttribute>("samples").value() == 12);
+    const Imath::M44f rows = header.typedAttribute<Imf::M44fAttribute>("worldToCamera").value();
+    CHECK(rows[3][0] == 5.0f);
+    CHECK(rows[3][2] == 7.0f);
+    CHECK(rows[0][3] == 0.0f);
+    CHECK(header.findTypedAttribute<Imf::StringAttribute>("capDate") == nullptr);
+}
+
+TEST_CASE("an attribute that EXR has itself, or that has no name, is refused") {
+    const TemporaryFolder folder;
+    for (const std::string& name : {std::string("channels"), std::string("compression"), std::string()}) {
+        Image image{2, 2, {{"R", ramp(4)}}};
+        image.attributes[name] = 1;
+        CHECK_THROWS_AS(save_exr(folder.path() / "image.exr", image), InputError);
+    }
+    CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("an image that EXR cannot hold is refused and nothing is written") {
