@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <string_view>
 
 #include "boxwood/trace.hpp"
 
@@ -11,8 +11,8 @@ namespace boxwood {
 /// How the light of a pixel is found:
 /// - path: unidirectional path tracing of `depth` bounces.
 /// - direct: the same with one bounce.
-/// - ambient: the simplified model of dissertation 3.7.7: Lambert, point lights with shadows and an ambient light, each scaled by
-///   ambient occlusion e^-t, over `depth` bounces.
+/// - ambient: the simplified model of dissertation 3.7.7: Lambert, punctual lights with shadows, and an ambient light scaled by the
+///   ambient occlusion 1 - e^-t, over `depth` bounces.
 /// - ao: ambient occlusion alone.
 /// - normals: the shading normal as a colour.
 /// - cost: bounding volumes tested for the pixel's ray.
@@ -33,6 +33,20 @@ enum class Hemisphere { cosine, uniform };
 
 /// Texture filters: along the beam's two axes, by the wider of them in three dimensions, or the nearest texel.
 enum class TextureFilter { anisotropic, trilinear, nearest };
+
+/// The words used in options, reports and on the command line: "path", "raster", "sobol", ... to_... throw InputError listing them.
+std::string_view name(Integrator integrator);
+std::string_view name(Primary primary);
+std::string_view name(SamplerKind sampler);
+std::string_view name(Strategy strategy);
+std::string_view name(Hemisphere hemisphere);
+std::string_view name(TextureFilter filter);
+Integrator to_integrator(std::string_view word);
+Primary to_primary(std::string_view word);
+SamplerKind to_sampler(std::string_view word);
+Strategy to_strategy(std::string_view word);
+Hemisphere to_hemisphere(std::string_view word);
+TextureFilter to_filter(std::string_view word);
 
 /// What decides about a picture's light.
 struct LightOptions {
