@@ -49,6 +49,12 @@ public:
     using Error::Error;
 };
 
+/// The user ended the work, and what there was of it is saved: exit code 130.
+class Interrupted : public Error {
+public:
+    using Error::Error;
+};
+
 /// The device of --device. Throws NoDevice.
 Device open_device(const Common& common);
 

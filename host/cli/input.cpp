@@ -12,16 +12,6 @@ namespace boxwood::cli {
 
 namespace {
 
-void print_warnings(const Input& input) {
-    constexpr std::size_t most = 5;
-    const std::vector<std::string>& warnings = input.scene.warnings;
-    for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i)
-        std::cerr << "boxwood: warning: " << input.file.string() << ": " << warnings[i] << '\n';
-    if (warnings.size() > most)
-        std::cerr << "boxwood: warning: " << input.file.string() << ": and " << warnings.size() - most
-                  << " more, all in the report\n";
-}
-
 std::string camera_list(const std::vector<Camera>& cameras) {
     if (cameras.empty()) return "the file has none; leave --camera out to see everything";
     std::string list = "the file has ";
@@ -32,6 +22,15 @@ std::string camera_list(const std::vector<Camera>& cameras) {
 
 } // namespace
 
+void print_warnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i)
+        std::cerr << "boxwood: warning: " << file.string() << ": " << warnings[i] << '\n';
+    if (warnings.size() > most)
+        std::cerr << "boxwood: warning: " << file.string() << ": and " << warnings.size() - most
+                  << " more, all in the report\n";
+}
+
 Input load_input(const std::filesystem::path& file, bool quiet) {
     Input input{file, {}, {}};
     if (is_bxw(file)) {
@@ -41,7 +40,7 @@ Input load_input(const std::filesystem::path& file, bool quiet) {
     } else {
         input.scene = load_gltf(file);
     }
-    if (!quiet) print_warnings(input);
+    if (!quiet) print_warnings(file, input.scene.warnings);
     return input;
 }
 

@@ -24,6 +24,9 @@ struct Input {
 /// error unless `quiet`. Throws InputError.
 Input load_input(const std::filesystem::path& file, bool quiet);
 
+/// Prints warnings about `file` on standard error, the first few.
+void print_warnings(const std::filesystem::path& file, const std::vector<std::string>& warnings);
+
 /// A tree ready for rays, and what building it measured when it was built.
 struct Prepared {
     Tree tree;

@@ -10,7 +10,7 @@ namespace boxwood::cli {
 
 namespace {
 
-enum ExitCode { done = 0, failed = 1, usage = 2, bad_input = 3, no_device = 4 };
+enum ExitCode { done = 0, failed = 1, usage = 2, bad_input = 3, no_device = 4, interrupted = 130 };
 
 /// One line on standard error. Messages of several lines, such as listings, are joined.
 ExitCode fail(ExitCode code, std::string message) {
@@ -33,6 +33,8 @@ ExitCode guarded(const Work& work) {
     try {
         work();
         return done;
+    } catch (const Interrupted& error) {
+        return fail(interrupted, error.what());
     } catch (const NoDevice& error) {
         return fail(no_device, error.what());
     } catch (const UsageError& error) {
@@ -65,7 +67,8 @@ int run(int argc, char** argv) {
     tool.set_version_flag("--version", std::string("boxwood ") + BOXWOOD_VERSION);
     tool.require_subcommand(1);
     tool.footer("boxwood COMMAND --help explains a command.\n"
-                "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 no usable device.");
+                "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 no usable device,\n"
+                "130 interrupted (render: the picture so far and a checkpoint are written).");
     const Command commands[] = {add_devices(tool), add_scene(tool), add_build(tool), add_info(tool),
                                 add_quality(tool), add_trace(tool), add_render(tool)};
     try {

@@ -16,6 +16,8 @@ public:
 
     /// Begins the next step.
     void step(const std::string& what);
+    /// Counts steps that need not be done.
+    void skip(std::size_t steps) { begun_ += steps; }
     /// Takes the bar away, before something is printed.
     void clear();
 

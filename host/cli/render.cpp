@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// boxwood render: a picture of a tree, as multi-channel OpenEXR and as a PNG preview.
+// boxwood render: a picture of a scene, as multi-channel OpenEXR and as a PNG preview.
 #include <algorithm>
-#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 
+#include "boxwood/rays.hpp"
 #include "boxwood/render.hpp"
 #include "cli/input.hpp"
-#include "cli/progress.hpp"
+#include "cli/light.hpp"
+#include "cli/render_work.hpp"
 #include "cli/report.hpp"
 
 namespace boxwood::cli {
@@ -21,70 +22,218 @@ struct Arguments {
     std::filesystem::path output;
     std::filesystem::path report;
     std::string camera;
+    std::string environment;
     std::vector<std::string> aovs;
+    float exposure = 0.0f;
+    std::optional<float> ao_distance; ///< > 0
+    std::optional<double> checkpoint_seconds;
+    bool resume = false;
     Resolution resolution;
+    LightChoice light;
     BuildChoice choice;
 
     std::filesystem::path preview() const { return std::filesystem::path(output).replace_extension(".png"); }
+    std::filesystem::path checkpoint() const { return output.string() + ".resume"; }
 };
 
+/// What was made, for report and summary.
+struct Result {
+    Json report;
+    RenderWork work;
+    std::uint64_t rejected = 0;
+    Profile profile;
+};
+
+/// Those that need no scene; the distance of ambient occlusion is filled in later.
 RenderOptions render_options(const Arguments& arguments) {
     RenderOptions options;
+    options.light = arguments.light.chosen();
     options.width = arguments.resolution.width;
     options.height = arguments.resolution.height;
-    for (const std::string& word : arguments.aovs) options.aovs.push_back(to_aov(word));
+    options.ao_distance = arguments.ao_distance.value_or(0.0f);
+    const bool cost = options.light.integrator == Integrator::cost;
+    if (cost) options.aovs.push_back(Aov::cost); // what the heat map is made of
+    for (const std::string& word : arguments.aovs) {
+        if (word == "all") {
+            for (const Aov aov : all_aovs())
+                if (has(options.light.integrator, aov)) options.aovs.push_back(aov);
+            continue;
+        }
+        options.aovs.push_back(to_aov(word));
+        if (!has(options.light.integrator, options.aovs.back()))
+            throw UsageError("--aov " + word + ": the integrator " + std::string(name(options.light.integrator)) +
+                             " has no such channels");
+    }
     return options;
 }
 
-/// The shading, or the heat map when cost alone is asked for.
-void save_preview(const Arguments& arguments, const Image& image, Json& report) {
-    if (arguments.aovs == std::vector<std::string>{"cost"}) {
+/// Light by the tone curve, other values as they are, costs as a heat map.
+void save_preview(const Arguments& arguments, Integrator integrator, const Image& image, Json& report) {
+    if (integrator == Integrator::cost) {
         const HeatMap map = cost_preview(image);
         report["heat_map_top"] = map.top;
         save_png(arguments.preview(), image.width, image.height, map.rgb);
-    } else {
-        save_png(arguments.preview(), image.width, image.height, shading_preview(image));
+        return;
     }
+    const bool light = integrator != Integrator::ao && integrator != Integrator::normals;
+    const PreviewOptions options{light ? arguments.exposure : 0.0f, light};
+    save_png(arguments.preview(), image.width, image.height, preview(image, options));
 }
 
-void run(const Arguments& arguments) {
+Json light_report(const RenderOptions& options, const Surroundings& around) {
+    const LightOptions& light = options.light;
+    Json report = {{"integrator", name(light.integrator)},
+                   {"primary", name(light.primary)},
+                   {"sampler", name(light.sampler)},
+                   {"strategy", name(light.strategy)},
+                   {"hemisphere", name(light.hemisphere)},
+                   {"filter", name(light.filter)},
+                   {"spp", light.samples},
+                   {"depth", light.depth},
+                   {"seed", light.seed},
+                   {"environment", around.name},
+                   {"resolution", {options.width, options.height}}};
+    if (has(light.integrator, Aov::ao)) report["ao_distance"] = options.ao_distance;
+    for (const Aov aov : without_repetition(options.aovs)) report["aovs"].push_back(name(aov));
+    return report;
+}
+
+/// Device times of the samples by stage, and the share of the passes that trace rays.
+void add_times(const Profile& profile, Json& report) {
+    double traced = 0.0, total = 0.0;
+    Json& stages = report["stages_ms"] = Json::object();
+    for (const PassTime& pass : profile.passes) {
+        Json& stage = stages[pass.stage];
+        stage = (stage.is_null() ? 0.0 : stage.get<double>()) + pass.ms;
+        total += pass.ms;
+        if (pass.label == "closest hit" || pass.label == "any hit") traced += pass.ms;
+    }
+    report["trace_share"] = total > 0.0 ? traced / total : 0.0;
+}
+
+double samples_per_s(const RenderOptions& options, const RenderWork& work) {
+    const double pixels = double{options.width * 1.0} * options.height;
+    return work.ms > 0.0 ? pixels * (work.samples - work.resumed) / (1e-3 * work.ms) : 0.0;
+}
+
+/// Renders, writes the pictures, and says what there is to report of them.
+Result render_pictures(Device& device, const Arguments& arguments, const RenderOptions& options, Render& render,
+                       Progress& progress) {
+    if (arguments.resume) resume(render, arguments.checkpoint());
+    device.take_profile();
+    Result result;
+    result.work = take_samples(device, render, options.light.samples,
+                               {arguments.checkpoint(), arguments.checkpoint_seconds}, progress);
+    result.profile = device.take_profile();
+    progress.step("writing " + arguments.output.string());
+    Image image = render.image();
+    image.attributes["scene"] = arguments.input.filename().string();
+    result.rejected = render.rejected_samples();
+    result.report = {{"image", arguments.output.string()},
+                     {"preview", arguments.preview().string()},
+                     {"ms", result.work.ms},
+                     {"samples", result.work.samples},
+                     {"resumed_samples", result.work.resumed},
+                     {"samples_per_s", samples_per_s(options, result.work)},
+                     {"rejected_samples", result.rejected},
+                     {"interrupted", result.work.interrupted},
+                     {"channels", image.channels.size()}};
+    add_times(result.profile, result.report);
+    save_preview(arguments, options.light.integrator, image, result.report);
+    save_exr(arguments.output, image);
+    return result;
+}
+
+void print_summary(const Arguments& arguments, const RenderOptions& options, const Result& result, const Camera& camera,
+                   const Surroundings& around) {
+    const Integrator integrator = options.light.integrator;
+    std::cout << arguments.output.string() << ": " << options.width << " x " << options.height << ", "
+              << name(integrator) << ", " << result.work.samples << " samples per pixel, camera \"" << camera.name
+              << '"';
+    if (integrator != Integrator::normals && integrator != Integrator::cost && integrator != Integrator::ao)
+        std::cout << ", environment " << around.name
+                  << (around.name == "sky" && arguments.environment.empty() ? " (nothing else lights the scene)" : "");
+    std::cout << "; " << std::fixed << std::setprecision(1) << result.work.ms << " ms, " << std::setprecision(2)
+              << samples_per_s(options, result.work) / 1e6 << " million samples/s; preview "
+              << arguments.preview().string() << '\n';
+    if (result.rejected > 0)
+        std::cerr << "boxwood: warning: " << grouped(result.rejected)
+                  << " samples of pixels were no light and left out\n";
+}
+
+void check(const Arguments& arguments) {
     arguments.choice.check();
     check_output(arguments.output, ".exr");
     check_output(arguments.preview(), ".png");
     check_output(arguments.report, "");
-    Progress progress(arguments.common.quiet, 4);
+    check_output(arguments.checkpoint(), "");
+}
+
+void finish(const Arguments& arguments, const RenderWork& work, std::uint32_t samples) {
+    if (work.interrupted)
+        throw Interrupted("interrupted after " + std::to_string(work.samples) + " of " + std::to_string(samples) +
+                          " samples: " + arguments.output.string() + " shows those, and --resume goes on from " +
+                          arguments.checkpoint().string());
+    std::error_code ignored;
+    std::filesystem::remove(arguments.checkpoint(), ignored);
+}
+
+void run(const Arguments& arguments) {
+    check(arguments);
+    RenderOptions options = render_options(arguments);
+    Device device = open_device(arguments.common);
+    check_film(device, options);
+    Progress progress(arguments.common.quiet, 3 + options.light.samples);
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
     const Camera camera = choose_camera(input, arguments.camera);
+    const Surroundings around =
+        surroundings(arguments.environment, shading_requirements(input.scene), options.light.integrator);
+    if (!arguments.ao_distance) options.ao_distance = default_ao_distance(input.scene);
     progress.step("building");
-    Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice);
-    progress.step("rendering");
-    const Geometry geometry = upload(device, input.scene);
-    const RenderOptions options = render_options(arguments);
-    const auto start = std::chrono::steady_clock::now();
-    const Image image = render(device, prepared.tree, geometry, camera, options);
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    Render render(device, input.scene, prepared.tree, around.environment, camera, options);
+    if (!arguments.common.quiet) {
+        progress.clear();
+        print_warnings(input.file, render.warnings());
+        print_warnings(arguments.environment, around.warnings);
+    }
+    const Result result = render_pictures(device, arguments, options, render, progress);
 
-    progress.step("writing " + arguments.output.string());
-    Json picture = {{"image", arguments.output.string()}, {"preview", arguments.preview().string()}, {"ms", ms}};
-    save_preview(arguments, image, picture);
-    save_exr(arguments.output, image);
-    std::vector<std::string> query;
-    if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
-        query.push_back("statistics");
-    Json report = base_report(device, input, prepared, query);
-    report["options"]["resolution"] = {options.width, options.height};
+    Json report = base_report(device, input, prepared, {});
+    for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
+    report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;
-    report["options"]["aovs"] = arguments.aovs;
-    report["render"] = picture;
+    report["render"] = result.report;
     save_report(arguments.report, report);
     progress.clear();
-    if (!arguments.common.quiet)
-        std::cout << arguments.output.string() << ": " << options.width << " x " << options.height << ", "
-                  << image.channels.size() << " channels, camera \"" << camera.name << "\", " << std::fixed
-                  << std::setprecision(1) << ms << " ms; preview " << arguments.preview().string() << '\n';
-    if (arguments.common.profile) print_profile(device, prepared);
+    if (!arguments.common.quiet) print_summary(arguments, options, result, camera, around);
+    if (arguments.common.profile) print_profile(prepared, result.profile);
+    finish(arguments, result.work, options.light.samples);
+}
+
+void add_picture_options(CLI::App& app, Arguments& arguments) {
+    add_resolution(app, arguments.resolution);
+    app.add_option("--camera", arguments.camera,
+                   "Name or index of the camera (default: the first, else a view of everything)");
+    app.add_option(
+           "--environment", arguments.environment,
+           "Light from all around: an OpenEXR picture of the sphere (FILE.exr), sky, none, or one radiance R,G,B "
+           "(default: sky when nothing else lights the scene, else none)")
+        ->type_name("LIGHT");
+    app.add_option("--ao-distance", arguments.ao_distance,
+                   "World units at which a surface occludes by e^-1, for ambient and ao (default: a twentieth of the "
+                   "scene's diagonal)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--exposure", arguments.exposure, "Stops by which the preview is brighter (default: 0)")
+        ->check(CLI::Range(-64.0f, 64.0f))
+        ->type_name("STOPS");
+    std::vector<std::string> names = {"all"};
+    for (const Aov aov : all_aovs()) names.emplace_back(name(aov));
+    app.add_option("--aov", arguments.aovs,
+                   "Channels beside R, G and B, separated by commas, or all of the integrator's")
+        ->delimiter(',')
+        ->check(CLI::IsMember(names));
 }
 
 } // namespace
@@ -95,20 +244,22 @@ Command add_render(CLI::App& tool) {
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
     app->add_option("-o,--output", arguments->output, "OpenEXR file to write (.exr); a .png preview is put beside it")
         ->required();
-    add_resolution(*app, arguments->resolution);
-    app->add_option("--camera", arguments->camera,
-                    "Name or index of the camera (default: the first, else a view of "
-                    "everything)");
-    std::vector<std::string> names;
-    for (const Aov aov : all_aovs()) names.emplace_back(name(aov));
-    app->add_option("--aov", arguments->aovs,
-                    "Channels beside the shading, separated by commas; cost alone makes the preview a heat map")
-        ->delimiter(',')
-        ->check(CLI::IsMember(names));
+    add_light_options(*app, arguments->light);
+    add_picture_options(*app, *arguments);
+    app->add_option(
+           "--checkpoint", arguments->checkpoint_seconds,
+           "Save what is needed to go on, to IMAGE.exr.resume, after the sample during which so many seconds have "
+           "passed; removed in the end. Ctrl-C saves it too")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("SECONDS");
+    app->add_flag("--resume", arguments->resume,
+                  "Go on from IMAGE.exr.resume, with the other options as they were, to the same bytes");
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");
     add_common(*app, arguments->common);
-    add_example(*app, "  boxwood render forest.bxw -o forest.exr --resolution 1280x720 --aov depth,normal");
+    add_example(*app,
+                "  boxwood render forest.bxw -o forest.exr --resolution 1280x720 --spp 64 --aov depth,normal\n"
+                "  boxwood render room.glb -o room.exr --integrator ambient --environment 0.8,0.9,1 --exposure 1");
     return {app, [arguments] { run(*arguments); }};
 }
 

@@ -107,10 +107,11 @@ void save_report(const std::filesystem::path& file, const Json& report) {
     output.commit();
 }
 
-void print_profile(Device& device, const Prepared& prepared) {
+void print_profile(Device& device, const Prepared& prepared) { print_profile(prepared, device.take_profile()); }
+
+void print_profile(const Prepared& prepared, const Profile& since) {
     Profile profile = prepared.report ? prepared.report->profile : Profile{};
-    const Profile rest = device.take_profile();
-    profile.passes.insert(profile.passes.end(), rest.passes.begin(), rest.passes.end());
+    profile.passes.insert(profile.passes.end(), since.passes.begin(), since.passes.end());
 
     std::size_t stage_width = 5, label_width = 4;
     for (const PassTime& pass : profile.passes) {

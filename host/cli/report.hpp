@@ -34,6 +34,8 @@ void save_report(const std::filesystem::path& file, const Json& report);
 
 /// Prints the device times of the build, if there was one, and of all since as a table on standard output. Waits.
 void print_profile(Device& device, const Prepared& prepared);
+/// The same, the times since having been taken already.
+void print_profile(const Prepared& prepared, const Profile& since);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);

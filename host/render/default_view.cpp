@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Camera and light for scenes that bring none.
+// Camera, light and distances for scenes that bring none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,6 +81,13 @@ glm::vec3 default_light(const Scene& scene) {
     glm::dvec3 light = 0.5 * box->lower + 0.5 * box->upper;
     light.y = 0.05 * box->lower.y + 0.95 * box->upper.y;
     return glm::vec3(light);
+}
+
+float default_ao_distance(const Scene& scene) {
+    const auto box = world_box(scene);
+    const double distance = box ? glm::length(box->upper - box->lower) / 20.0 : 0.0;
+    const auto rounded = static_cast<float>(distance);
+    return rounded > 0.0f ? rounded : 1.0f;
 }
 
 } // namespace boxwood

@@ -30,6 +30,19 @@ std::uint8_t srgb_byte(double linear) {
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
+/// Khronos PBR Neutral (its specification, 2024): what reflection at a dielectric's surface adds is taken off, and above
+/// 0.76 brightness is compressed towards 1 and colours fade to white.
+glm::dvec3 neutral_curve(glm::dvec3 colour) {
+    constexpr double start = 0.8 - 0.04, desaturation = 0.15, room = 1.0 - start;
+    const double least = std::min({colour.x, colour.y, colour.z});
+    colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+    const double peak = std::max({colour.x, colour.y, colour.z});
+    if (peak < start) return colour;
+    const double compressed = 1.0 - room * room / (peak + room - start);
+    const double faded = 1.0 - 1.0 / (desaturation * (peak - compressed) + 1.0);
+    return glm::mix(colour * (compressed / peak), glm::dvec3(compressed), faded);
+}
+
 /// Oklab to linear sRGB (Ottosson, "A perceptual color space for image processing", 2020; his two matrices).
 glm::dvec3 from_oklab(double lightness, double a, double b) {
     const glm::dvec3 root(lightness + 0.3963377774 * a + 0.2158037573 * b,
@@ -74,12 +87,22 @@ std::uint32_t top_of(std::vector<std::uint32_t> values) {
 
 } // namespace
 
-std::vector<std::uint8_t> shading_preview(const Image& image) {
+std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& options) {
     const std::array planes = {&channel<float>(image, "R"), &channel<float>(image, "G"), &channel<float>(image, "B")};
+    const double scale = std::exp2(double{options.exposure});
+    // Far above white, and far from where squares of doubles end.
+    constexpr double most = 1e30;
     std::vector<std::uint8_t> rgb;
     rgb.reserve(3 * planes[0]->size());
-    for (std::size_t i = 0; i < planes[0]->size(); ++i)
-        for (const std::vector<float>* plane : planes) rgb.push_back(srgb_byte(plane->at(i)));
+    for (std::size_t i = 0; i < planes[0]->size(); ++i) {
+        glm::dvec3 colour;
+        for (int c = 0; c < 3; ++c) {
+            const double light = scale * double{planes[static_cast<std::size_t>(c)]->at(i)};
+            colour[c] = light > 0.0 ? std::min(light, most) : 0.0; // NaN to 0
+        }
+        if (options.tone_curve) colour = neutral_curve(colour);
+        for (int c = 0; c < 3; ++c) rgb.push_back(srgb_byte(colour[c]));
+    }
     return rgb;
 }
 

@@ -2,124 +2,198 @@
 #include "boxwood/render.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include <glm/gtc/constants.hpp>
+
 #include "boxwood/error.hpp"
 #include "boxwood/rays.hpp"
-#include "runtime/launch.hpp"
+#include "render/aovs.hpp"
+#include "render/checkpoint.hpp"
+#include "render/environment.hpp"
+#include "render/film.hpp"
+#include "render/integrators.hpp"
+#include "render/jitter.hpp"
 
 namespace boxwood {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> aov_names = {"depth", "normal", "instance", "primitive", "cost"};
-
-/// What the kernels of film.cl read.
-struct Film {
-    Device& device;
-    const Geometry& geometry;
-    BufferView<const Ray> rays;
-    BufferView<const Hit> hits;
-    Slices slices;
-
-    std::uint32_t pixels() const { return static_cast<std::uint32_t>(hits.size()); }
-    KernelRef kernel(const char* name) const { return {"render/film.cl", name}; }
-};
-
-/// Three planes made of the surfaces, one channel each.
-void add_surface_planes(const Film& film, const char* kernel, const char* label,
-                        const std::array<const char*, 3>& names, Image& image) {
-    const Buffer<float> planes = make_scratch<float>(film.device, 3 * film.hits.size(), "film planes");
-    const Geometry& geometry = film.geometry;
-    launch(film.device, film.kernel(kernel), label, film.slices.slices, geometry.positions, geometry.triangles,
-           geometry.meshes, geometry.instances, film.rays, film.hits, film.pixels(), film.slices.length, planes);
-    const std::vector<float> values = download<float>(film.device, planes);
-    const auto pixels = static_cast<std::ptrdiff_t>(film.hits.size());
-    for (int c = 0; c < 3; ++c)
-        image.channels.push_back(
-            {names[c], std::vector<float>(values.begin() + c * pixels, values.begin() + (c + 1) * pixels)});
+void check_range(const char* option, std::uint64_t value, std::uint64_t least, std::uint64_t most) {
+    if (value < least || value > most)
+        throw InputError("render", option,
+                         std::to_string(value) + " is out of range: " + std::to_string(least) + " to " +
+                             std::to_string(most));
 }
 
-/// One plane made of the hits.
-template <class T>
-void add_hit_plane(const Film& film, const char* kernel, const char* label, const char* name, Image& image) {
-    const Buffer<T> plane = make_scratch<T>(film.device, film.hits.size(), "film plane");
-    launch(film.device, film.kernel(kernel), label, film.slices.slices, film.hits, film.pixels(), film.slices.length,
-           plane);
-    image.channels.push_back({name, download<T>(film.device, plane)});
+void check_options(const RenderOptions& options) {
+    check_range("width", options.width, 1, 1u << 23);
+    check_range("height", options.height, 1, 1u << 23);
+    check_range("samples", options.light.samples, 1, 1u << 20);
+    check_range("depth", options.light.depth, 0, 64);
+    check_range("batch", options.batch, 1, ~0u);
+    if (!(options.ao_distance >= 0.0f && std::isfinite(options.ao_distance)))
+        throw InputError("render", "ao_distance", std::to_string(options.ao_distance) + " is not a distance");
+    for (const Aov aov : options.aovs)
+        if (!has(options.light.integrator, aov))
+            throw InputError("render", "aovs",
+                             "the integrator " + std::string(name(options.light.integrator)) + " has no channels \"" +
+                                 std::string(name(aov)) + "\"");
 }
 
-void add_costs(const Film& film, BufferView<const RayStatistics> statistics, Image& image) {
-    const auto volumes = make_scratch<std::uint32_t>(film.device, film.hits.size(), "film plane");
-    const auto primitives = make_scratch<std::uint32_t>(film.device, film.hits.size(), "film plane");
-    launch(film.device, film.kernel("film_costs"), "film costs", film.slices.slices, statistics, film.pixels(),
-           film.slices.length, volumes, primitives);
-    image.channels.push_back({"cost.volumes", download<std::uint32_t>(film.device, volumes)});
-    image.channels.push_back({"cost.primitives", download<std::uint32_t>(film.device, primitives)});
+/// Adds three planes as "R", "G", "B" of a layer.
+void add_color(const std::string& layer, const std::vector<float>* planes, Image& image) {
+    for (int c = 0; c < 3; ++c) image.channels.push_back({layer + "RGB"[c], planes[c]});
 }
 
-void add_aov(const Film& film, Aov aov, BufferView<const RayStatistics> statistics, Image& image) {
-    switch (aov) {
-    case Aov::depth:
-        return add_hit_plane<float>(film, "film_depth", "film depth", "depth.Z", image);
-    case Aov::normal:
-        return add_surface_planes(film, "film_normals", "film normals", {"normal.X", "normal.Y", "normal.Z"}, image);
-    case Aov::instance:
-        return add_hit_plane<std::uint32_t>(film, "film_instances", "film instances", "instance.id", image);
-    case Aov::primitive:
-        return add_hit_plane<std::uint32_t>(film, "film_primitives", "film primitives", "primitive.id", image);
-    case Aov::cost:
-        return add_costs(film, statistics, image);
-    }
+/// What is seen: the sum of the parts of the light.
+std::vector<std::vector<float>> beauty_of(FilmParts parts, const std::vector<std::vector<float>>& means) {
+    std::vector<std::vector<float>> planes(means.begin(), means.begin() + 3);
+    for (std::uint32_t k = 3; k < 3 * parts.lights; ++k)
+        for (std::size_t i = 0; i < planes[0].size(); ++i) planes[k % 3][i] += means[k][i];
+    return planes;
 }
 
-/// Each AOV once, in the order of the enumeration.
-std::vector<Aov> without_repetition(std::vector<Aov> aovs) {
-    std::sort(aovs.begin(), aovs.end());
-    aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
-    return aovs;
+void add_light_channel(Aov aov, FilmParts parts, const std::vector<float>& film,
+                       const std::vector<std::vector<float>>& means, Image& image) {
+    if (aov == Aov::direct) add_color("direct.", &means[0], image);
+    if (aov == Aov::indirect) add_color("indirect.", &means[3], image);
+    if (aov == Aov::ambient) add_color("ambient.", &means[6], image);
+    if (aov == Aov::ao) image.channels.push_back({"ao.A", means.back()});
+    if (aov == Aov::variance) image.channels.push_back({"variance.Y", film_variance(parts, film)});
+    if (aov == Aov::samples) image.channels.push_back({"samples.N", film_samples(parts, film)});
+}
+
+void add_attributes(const RenderOptions& options, const Camera& camera, std::uint32_t samples, Image& image) {
+    const LightOptions& light = options.light;
+    auto& attributes = image.attributes;
+    attributes["boxwood"] = std::string(BOXWOOD_VERSION);
+    attributes["integrator"] = std::string(name(light.integrator));
+    attributes["primary"] = std::string(name(light.primary));
+    attributes["sampler"] = std::string(name(light.sampler));
+    attributes["strategy"] = std::string(name(light.strategy));
+    attributes["seed"] = std::to_string(light.seed); // 64 bits
+    attributes["samples"] = static_cast<std::int32_t>(samples);
+    attributes["depth"] = static_cast<std::int32_t>(light.depth);
+    attributes["camera"] = camera.name;
+    attributes["worldToCamera"] = glm::mat4(glm::inverse(glm::dmat4(camera.to_world)));
+    if (camera.perspective)
+        attributes["verticalFieldOfView"] = static_cast<float>(double{camera.vertical_fov} * 180.0 / glm::pi<double>());
+    else
+        attributes["halfHeight"] = camera.half_height;
 }
 
 } // namespace
 
-std::string_view name(Aov aov) { return aov_names.at(static_cast<std::size_t>(aov)); }
+struct Render::State {
+    Device& device;
+    const Scene& scene;
+    const Tree& tree;
+    Camera camera;
+    RenderOptions options;
+    FilmParts parts;
+    std::vector<Aov> aovs;
+    Buffer<float> film;
+    std::uint32_t samples = 0;
+    Geometry geometry;
+    std::vector<std::string> warnings;
+    Appearance appearance;
+    EnvironmentMap environment;
+    mutable std::optional<std::uint64_t> fingerprint;
 
-std::vector<Aov> all_aovs() { return {Aov::depth, Aov::normal, Aov::instance, Aov::primitive, Aov::cost}; }
-
-Aov to_aov(std::string_view word) {
-    std::string known;
-    for (const Aov aov : all_aovs()) {
-        if (name(aov) == word) return aov;
-        known += (known.empty() ? "" : ", ") + std::string(name(aov));
+    State(Device& on, const Scene& of, const Tree& built, const Environment& around, const Camera& by,
+          const RenderOptions& with)
+        : device(on), scene(of), tree(built), camera(by), options(with), parts(film_parts(with.light.integrator)),
+          aovs(without_repetition(with.aovs)), film(make_film(on, parts, std::size_t{with.width} * with.height)),
+          geometry(upload(on, of)), appearance(upload_appearance(on, of, shading_requirements(of), warnings)),
+          environment(upload_environment(on, around)) {
+        if (options.ao_distance == 0.0f) options.ao_distance = default_ao_distance(scene);
     }
-    throw InputError("aov", std::string(word), "unknown; there are " + known);
+
+    std::uint32_t pixels() const { return options.width * options.height; }
+    World world() const { return {tree, geometry, appearance, environment}; }
+    std::uint64_t identity() const {
+        if (!fingerprint) fingerprint = render_fingerprint(device, world(), camera, options);
+        return *fingerprint;
+    }
+};
+
+Render::Render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment,
+               const Camera& camera, const RenderOptions& options) {
+    check_options(options);
+    check_film(device, options);
+    state_ = std::make_unique<State>(device, scene, tree, environment, camera, options);
 }
 
-Image render(Device& device, const Tree& tree, const Geometry& geometry, const Camera& camera,
-             const RenderOptions& options) {
-    const Stage stage(device, "render");
-    const std::vector<Aov> aovs = without_repetition(options.aovs);
-    const std::size_t pixels = std::size_t{options.width} * options.height;
-    if (pixels == 0) throw InputError("render", "resolution", "width and height must be at least 1");
+Render::~Render() = default;
+Render::Render(Render&&) noexcept = default;
+Render& Render::operator=(Render&&) noexcept = default;
 
-    const Buffer<Ray> rays = make_scratch<Ray>(device, pixels, "rays");
-    const Buffer<Hit> hits = make_scratch<Hit>(device, pixels, "hits");
-    Buffer<RayStatistics> statistics;
-    primary_rays(device, camera, options.width, options.height, rays);
-    if (std::find(aovs.begin(), aovs.end(), Aov::cost) != aovs.end()) {
-        statistics = make_scratch<RayStatistics>(device, pixels, "ray statistics");
-        closest_hit(device, tree, rays, hits, statistics, options.trace);
-    } else {
-        closest_hit(device, tree, rays, hits, options.trace);
+void Render::advance() {
+    if (done()) return;
+    State& state = *state_;
+    const Stage stage(state.device, "render");
+    const std::uint32_t pixels = state.pixels(), most = std::min(state.options.batch, pixels);
+    const Buffer<CameraRecord> camera =
+        upload_camera(state.device, state.camera, state.options.width, state.options.height,
+                      camera_jitter(state.options.light, state.samples));
+    const SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
+    for (std::uint32_t first = 0, count = 0; first < pixels; first += count) {
+        count = std::min(most, pixels - first);
+        const FilmSample sample =
+            take_sample(state.device, state.world(), state.options, state.samples, {camera, first, count}, buffers);
+        add_sample(state.device, state.parts, sample, state.film);
     }
+    ++state.samples;
+}
 
-    Image image{options.width, options.height, {}};
-    const Film film{device, geometry, rays, hits, cut(device, pixels)};
-    add_surface_planes(film, "film_shading", "film shading", {"R", "G", "B"}, image);
-    for (const Aov aov : aovs) add_aov(film, aov, statistics, image);
+const std::vector<std::string>& Render::warnings() const { return state_->warnings; }
+
+std::uint32_t Render::samples() const { return state_->samples; }
+
+bool Render::done() const { return state_->samples >= state_->options.light.samples; }
+
+Image Render::image() const {
+    const State& state = *state_;
+    Image image{state.options.width, state.options.height, {}};
+    {
+        const std::vector<float> film = download(state.device, state.film);
+        const std::vector<std::vector<float>> means = film_means(state.parts, film);
+        add_color("", beauty_of(state.parts, means).data(), image);
+        for (const Aov aov : state.aovs) add_light_channel(aov, state.parts, film, means, image);
+    }
+    add_centre_channels(state.device, state.scene, state.world(), state.camera, state.options, state.aovs, image);
+    add_attributes(state.options, state.camera, state.samples, image);
     return image;
+}
+
+std::uint64_t Render::rejected_samples() const {
+    const std::vector<float> film = download(state_->device, state_->film);
+    std::uint64_t kept = 0;
+    for (const std::uint32_t count : film_samples(state_->parts, film)) kept += count;
+    return std::uint64_t{state_->pixels()} * state_->samples - kept;
+}
+
+std::vector<std::byte> Render::state() const {
+    return encode_checkpoint({state_->samples, download(state_->device, state_->film)}, state_->identity());
+}
+
+void Render::restore(std::span<const std::byte> bytes, std::string_view file) {
+    State& state = *state_;
+    const Checkpoint checkpoint =
+        decode_checkpoint(bytes, state.identity(), state.film.size(), state.options.light.samples, file);
+    write(state.device, std::span<const float>(checkpoint.film), state.film.view());
+    state.samples = checkpoint.samples;
+}
+
+Image render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment, const Camera& camera,
+             const RenderOptions& options) {
+    Render work(device, scene, tree, environment, camera, options);
+    while (!work.done()) work.advance();
+    return work.image();
 }
 
 } // namespace boxwood

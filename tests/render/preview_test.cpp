@@ -30,17 +30,44 @@ Image costs(const std::vector<std::uint32_t>& volumes) {
 
 } // namespace
 
-TEST_CASE("preview: shading is encoded as sRGB and clamped") {
+TEST_CASE("preview: light is encoded as sRGB and clamped") {
     const std::vector<float> values = {
         0.0f, 1.0f, 0.5f, 0.2158605f, -1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN()};
     const Image image{7, 1, {{"R", values}, {"G", values}, {"B", values}}};
-    const std::vector<std::uint8_t> rgb = shading_preview(image);
+    const std::vector<std::uint8_t> rgb = preview(image, {.exposure = 0.0f, .tone_curve = false});
     // By the transfer function 0.5 has the code 187.5 of 255, and 0.2158605 the code 128.0.
     const std::uint8_t expected[] = {0, 255, 188, 128, 0, 255, 0};
     REQUIRE(rgb.size() == 21);
     for (std::size_t i = 0; i < 7; ++i)
         for (std::size_t c = 0; c < 3; ++c) CHECK(rgb[3 * i + c] == expected[i]);
-    CHECK_THROWS_AS(shading_preview(costs({1})), InputError);
+    CHECK_THROWS_AS(preview(costs({1})), InputError);
+}
+
+TEST_CASE("preview: exposure is in stops") {
+    const std::vector<float> dark = {0.125f, 0.0625f, 1e-4f}, bright = {0.5f, 0.25f, 4e-4f};
+    for (const bool curve : {false, true})
+        CHECK(preview({3, 1, {{"R", dark}, {"G", dark}, {"B", bright}}}, {2.0f, curve}) ==
+              preview({3, 1, {{"R", bright}, {"G", bright}, {"B", std::vector<float>{2.0f, 1.0f, 1.6e-3f}}}},
+                      {0.0f, curve}));
+}
+
+TEST_CASE("preview: the tone curve keeps base colours, order and hue, and ends at white") {
+    // Under white light of radiance 1 a matt surface of colour c that reflects 4 % more is shown as c.
+    const std::vector<float> r = {0.54f, 0.24f, 1e30f, 3.0f, 6.0f}, g = {0.34f, 0.24f, 1e30f, 1.5f, 3.0f},
+                             b = {0.14f, 0.24f, 1e30f, 0.5f, 1.0f};
+    const std::vector<std::uint8_t> rgb = preview({5, 1, {{"R", r}, {"G", g}, {"B", b}}});
+    // 255 times the sRGB transfer function of 0.5, 0.3, 0.1 and 0.2.
+    CHECK(std::vector<std::uint8_t>(rgb.begin(), rgb.begin() + 6) ==
+          std::vector<std::uint8_t>{188, 149, 89, 124, 124, 124});
+    for (int c = 6; c < 9; ++c) CHECK(rgb[c] == 255);
+    CHECK(rgb[9] > rgb[10]);
+    CHECK(rgb[10] > rgb[11]);
+    CHECK(luminance(&rgb[12]) > luminance(&rgb[9]));
+    CHECK(rgb[14] > rgb[11]); // brighter is paler
+    // Far from what doubles hold, and still no wrapped byte.
+    const std::vector<float> most(1, std::numeric_limits<float>::max());
+    for (const std::uint8_t value : preview({1, 1, {{"R", most}, {"G", most}, {"B", most}}}, {64.0f, true}))
+        CHECK(value == 255);
 }
 
 TEST_CASE("preview: the heat map grows lighter with the cost, in equal steps of lightness") {

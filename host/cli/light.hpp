@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The options of `boxwood render` that decide about light.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "boxwood/environment.hpp"
+#include "boxwood/render_options.hpp"
+#include "boxwood/requirements.hpp"
+#include "cli/command.hpp"
+
+namespace boxwood::cli {
+
+/// --integrator, --primary, --sampler, --strategy, --hemisphere, --filter, --spp, --depth, --seed.
+struct LightChoice {
+    LightOptions options;
+    CLI::Option* depth = nullptr;
+
+    /// The options, with the integrator's own depth where none was given.
+    LightOptions chosen() const;
+};
+void add_light_options(CLI::App& command, LightChoice& choice);
+
+/// What lights a scene from outside, and how a summary calls it.
+struct Surroundings {
+    Environment environment;
+    std::string name;                  ///< "none", "sky", "constant" or the file's name.
+    std::vector<std::string> warnings; ///< Of the file.
+};
+
+/// Of --environment: a file, "sky", "none", or three numbers; when empty, the sky if nothing else lights the scene for this
+/// integrator, else none. Throws UsageError for another word, InputError for a file that cannot be used.
+Surroundings surroundings(const std::string& choice, const ShadingRequirements& scene, Integrator integrator);
+
+} // namespace boxwood::cli

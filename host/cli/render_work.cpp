@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_work.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "boxwood/error.hpp"
+#include "cli/interrupt.hpp"
+#include "io/atomic_file.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void save_checkpoint(const Render& render, const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = render.state();
+    AtomicFile out(file);
+    out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.commit();
+}
+
+std::vector<std::byte> file_bytes(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw InputError(file.string(), "", "there is no such checkpoint to resume from: leave --resume out to begin");
+    std::error_code failure;
+    const auto size = std::filesystem::file_size(file, failure);
+    std::vector<std::byte> bytes(failure ? 0 : size);
+    if (failure || !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+        throw InputError(file.string(), "", "cannot be read");
+    return bytes;
+}
+
+} // namespace
+
+std::string duration(double seconds) {
+    const auto whole = static_cast<long>(std::min(std::ceil(seconds), 1e9));
+    if (whole < 60) return std::to_string(whole) + " s";
+    if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+    return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
+void resume(Render& render, const std::filesystem::path& file) { render.restore(file_bytes(file), file.string()); }
+
+RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
+                        Progress& progress) {
+    const InterruptGuard guard;
+    RenderWork work{render.samples(), render.samples(), 0.0, false};
+    const auto start = Clock::now();
+    auto saved = start;
+    progress.skip(work.resumed);
+    while (!render.done() && !guard.interrupted()) {
+        const std::uint32_t taken = work.samples - work.resumed;
+        const std::string left =
+            taken == 0 ? "" : ", " + duration(seconds_since(start) / taken * (samples - work.samples)) + " left";
+        progress.step("sample " + std::to_string(work.samples + 1) + " of " + std::to_string(samples) + left);
+        render.advance();
+        device.finish();
+        work.samples = render.samples();
+        if (checkpoints.seconds && !render.done() && seconds_since(saved) >= *checkpoints.seconds) {
+            save_checkpoint(render, checkpoints.file);
+            saved = Clock::now();
+        }
+    }
+    work.ms = 1e3 * seconds_since(start);
+    work.interrupted = !render.done();
+    if (work.interrupted) save_checkpoint(render, checkpoints.file);
+    return work;
+}
+
+} // namespace boxwood::cli
