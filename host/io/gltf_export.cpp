@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Writes GLB by hand: a scene of a million instances is a million JSON objects, too many to hold in a document first.
-#include <array>
 #include <bit>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <ostream>
+#include <span>
 #include <string>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "io/atomic_file.hpp"
+#include "io/gltf_export_looks.hpp"
 #include "io/gltf_lines.hpp"
+#include "io/gltf_text.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
@@ -26,46 +25,84 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 constexpr std::uint64_t largest_file = std::numeric_limits<std::uint32_t>::max();
 
-// The shortest decimal that reads back as the same float, also through a reader that goes by way of double.
-void append_number(std::string& text, float value) {
-    if (value == 0.0f) { // "-0" would be read as an integer, which has no negative zero
-        text += std::signbit(value) ? "-0.0" : "0";
-        return;
-    }
-    std::array<char, 32> digits{};
-    char* end = std::to_chars(digits.begin(), digits.end(), value).ptr;
-    double read = 0.0;
-    std::from_chars(digits.begin(), end, read);
-    if (static_cast<float>(read) != value) {
-        end = std::to_chars(digits.begin(), digits.end(), static_cast<double>(value)).ptr;
-    }
-    text.append(digits.data(), end);
-}
+enum class Mode { triangles, lines };
 
-std::string quoted(const std::string& name) {
-    return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+/// What glTF calls the elements of an accessor.
+struct ElementType {
+    const char* component;
+    const char* type;
+};
+constexpr ElementType floats2{"5126", "VEC2"}, floats3{"5126", "VEC3"}, floats4{"5126", "VEC4"},
+    words{"5125", "SCALAR"};
 
-/// One element after another of a JSON array, with the commas between them.
-class Array {
+std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
+
+/// The binary chunk: arrays as they lie in memory, each a buffer view at a multiple of four bytes, and the accessors into them.
+class Binary {
 public:
-    Array(std::string& text, const char* key) : text_(text) { text_ += std::string(",\"") + key + "\":["; }
-    std::string& next() {
-        if (!first_) text_ += ',';
-        first_ = false;
-        return text_;
+    /// Gives the view's index. `target` is "" for none.
+    std::size_t add_view(std::span<const std::byte> bytes, const char* target) {
+        views_.push_back({bytes, target});
+        return views_.size() - 1;
     }
-    void end() { text_ += ']'; }
+    /// Gives the accessor's index.
+    std::size_t add_accessor(std::size_t view, std::size_t offset, std::size_t count, ElementType type,
+                             const std::string& more = "") {
+        if (accessor_count_ > 0) accessors_ += ',';
+        accessors_ += "{\"bufferView\":" + std::to_string(view);
+        if (offset > 0) accessors_ += ",\"byteOffset\":" + std::to_string(offset);
+        accessors_ += std::string(",\"componentType\":") + type.component + ",\"count\":" + std::to_string(count) +
+                      ",\"type\":\"" + type.type + "\"" + more + "}";
+        return accessor_count_++;
+    }
+    /// One view and one accessor for an attribute of vertices.
+    template <class Vector>
+    std::size_t add_attribute(const std::vector<Vector>& values, ElementType type, const std::string& more = "") {
+        return add_accessor(add_view(std::as_bytes(std::span(values)), "34962"), 0, values.size(), type, more);
+    }
+
+    std::uint64_t size() const {
+        std::uint64_t bytes = 0;
+        for (const View& view : views_) bytes += padded(view.bytes.size());
+        return bytes;
+    }
+
+    void append_json(std::string& text) const {
+        if (accessor_count_ > 0) text += ",\"accessors\":[" + accessors_ + "]";
+        if (views_.empty()) return;
+        Array list(text, "bufferViews");
+        std::uint64_t offset = 0;
+        for (const View& view : views_) {
+            list.next() += "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+                           ",\"byteLength\":" + std::to_string(view.bytes.size()) +
+                           (*view.target == 0 ? "" : std::string(",\"target\":") + view.target) + "}";
+            offset += padded(view.bytes.size());
+        }
+        list.end();
+        text += ",\"buffers\":[{\"byteLength\":" + std::to_string(offset) + "}]";
+    }
+
+    void write(std::ostream& out) const {
+        for (const View& view : views_) {
+            out.write(reinterpret_cast<const char*>(view.bytes.data()),
+                      static_cast<std::streamsize>(view.bytes.size()));
+            out.write("\0\0\0", static_cast<std::streamsize>(padded(view.bytes.size()) - view.bytes.size()));
+        }
+    }
 
 private:
-    std::string& text_;
-    bool first_ = true;
+    struct View {
+        std::span<const std::byte> bytes;
+        const char* target;
+    };
+    std::vector<View> views_;
+    std::string accessors_;
+    std::size_t accessor_count_ = 0;
 };
 
-// A node with its name, its matrix unless that is the identity, and a reference such as "mesh":0.
-void append_node(std::string& text, const std::string& name, const glm::mat4& matrix, const char* reference,
-                 std::size_t index) {
-    text += std::string("{\"") + reference + "\":" + std::to_string(index);
+// A node with its name, its matrix unless that is the identity, and what it shows, such as "mesh":0.
+void append_node(std::string& text, const std::string& name, const glm::mat4& matrix, const std::string& shown) {
+    text += '{' + shown;
     if (!name.empty()) text += ",\"name\":" + quoted(name);
     static const glm::mat4 identity(1.0f);
     if (std::memcmp(&matrix, &identity, sizeof matrix) != 0) { // by bits: -0 and 0 are told apart
@@ -81,63 +118,52 @@ void append_node(std::string& text, const std::string& name, const glm::mat4& ma
     text += '}';
 }
 
-void append_vector(std::string& text, const glm::vec3& value) {
-    for (int axis = 0; axis < 3; ++axis) {
-        text += axis == 0 ? '[' : ',';
-        append_number(text, value[axis]);
+/// The attributes of a mesh as members of a JSON object.
+std::string attributes_of(const Mesh& mesh, Binary& binary) {
+    const MeshBounds bounds = mesh_bounds(mesh.positions);
+    std::string limits = ",\"min\":";
+    append_vector(limits, bounds.min);
+    limits += ",\"max\":";
+    append_vector(limits, bounds.max);
+    std::string text = "\"POSITION\":" + std::to_string(binary.add_attribute(mesh.positions, floats3, limits));
+    const auto add = [&](const char* name, const auto& values, ElementType type) {
+        if (!values.empty())
+            text += std::string(",\"") + name + "\":" + std::to_string(binary.add_attribute(values, type));
+    };
+    add("NORMAL", mesh.normals, floats3);
+    add("TANGENT", mesh.tangents, floats4);
+    add("TEXCOORD_0", mesh.uvs[0], floats2);
+    add("TEXCOORD_1", mesh.uvs[1], floats2);
+    add("COLOR_0", mesh.colors, floats4);
+    return text;
+}
+
+// A primitive for each run of triangles of one material, so that triangles keep their order.
+void append_primitives(std::string& text, const Mesh& mesh, Mode mode, Binary& binary) {
+    const std::string attributes = attributes_of(mesh, binary);
+    const std::size_t view = binary.add_view(std::as_bytes(std::span(mesh.triangles)), "34963");
+    const auto material = [&mesh](std::size_t i) { return mesh.materials.empty() ? BOXWOOD_NONE : mesh.materials[i]; };
+    text += "\"primitives\":[";
+    for (std::size_t first = 0, end = 0; first < mesh.triangles.size(); first = end) {
+        while (end < mesh.triangles.size() && material(end) == material(first)) ++end;
+        const std::size_t indices = binary.add_accessor(view, 12 * first, 3 * (end - first), words);
+        if (first > 0) text += ',';
+        text += "{\"attributes\":{" + attributes + "},\"indices\":" + std::to_string(indices);
+        if (material(first) != BOXWOOD_NONE) text += ",\"material\":" + std::to_string(material(first));
+        text += mode == Mode::lines ? ",\"mode\":1}" : "}";
     }
     text += ']';
 }
 
-std::uint64_t position_bytes(const Mesh& mesh) { return std::uint64_t{12} * mesh.positions.size(); }
-std::uint64_t triangle_bytes(const Mesh& mesh) { return std::uint64_t{12} * mesh.triangles.size(); }
-
-enum class Mode { triangles, lines };
-
-// Mesh i has accessors and buffer views 2i (positions) and 2i + 1 (indices), in this order in the binary chunk.
-void append_meshes(std::string& text, const std::vector<Mesh>& meshes, Mode mode) {
+void append_meshes(std::string& text, const std::vector<Mesh>& meshes, Mode mode, Binary& binary) {
     Array list(text, "meshes");
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        list.next() += "{\"primitives\":[{\"attributes\":{\"POSITION\":" + std::to_string(2 * i) +
-                       "},\"indices\":" + std::to_string(2 * i + 1) + (mode == Mode::lines ? ",\"mode\":1}]" : "}]");
-        if (!meshes[i].name.empty()) text += ",\"name\":" + quoted(meshes[i].name);
-        text += '}';
-    }
-    list.end();
-}
-
-void append_accessors(std::string& text, const std::vector<Mesh>& meshes) {
-    Array list(text, "accessors");
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const MeshBounds bounds = mesh_bounds(meshes[i].positions);
-        list.next() += "{\"bufferView\":" + std::to_string(2 * i) +
-                       ",\"componentType\":5126,\"count\":" + std::to_string(meshes[i].positions.size()) +
-                       ",\"type\":\"VEC3\",\"min\":";
-        append_vector(text, bounds.min);
-        text += ",\"max\":";
-        append_vector(text, bounds.max);
-        text += '}';
-        list.next() += "{\"bufferView\":" + std::to_string(2 * i + 1) +
-                       ",\"componentType\":5125,\"count\":" + std::to_string(3 * meshes[i].triangles.size()) +
-                       ",\"type\":\"SCALAR\"}";
-    }
-    list.end();
-}
-
-void append_buffer_views(std::string& text, const std::vector<Mesh>& meshes) {
-    Array list(text, "bufferViews");
-    std::uint64_t offset = 0;
-    const auto append = [&](std::uint64_t bytes, const char* target) {
-        list.next() += "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
-                       ",\"byteLength\":" + std::to_string(bytes) + ",\"target\":" + target + "}";
-        offset += bytes;
-    };
     for (const Mesh& mesh : meshes) {
-        append(position_bytes(mesh), "34962");
-        append(triangle_bytes(mesh), "34963");
+        list.next() += '{';
+        append_primitives(text, mesh, mode, binary);
+        if (!mesh.name.empty()) text += ",\"name\":" + quoted(mesh.name);
+        text += '}';
     }
     list.end();
-    text += ",\"buffers\":[{\"byteLength\":" + std::to_string(offset) + "}]";
 }
 
 // glTF demands a zfar of orthographic cameras and a znear of both; Boxwood has no use for either.
@@ -162,33 +188,35 @@ void append_cameras(std::string& text, const std::vector<Camera>& cameras) {
 void append_nodes(std::string& text, const Scene& scene) {
     Array nodes(text, "nodes");
     for (const Instance& instance : scene.instances) {
-        append_node(nodes.next(), instance.name, instance.transform, "mesh", instance.mesh);
+        append_node(nodes.next(), instance.name, instance.transform, "\"mesh\":" + std::to_string(instance.mesh));
     }
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        append_node(nodes.next(), scene.cameras[i].name, scene.cameras[i].to_world, "camera", i);
+        append_node(nodes.next(), scene.cameras[i].name, scene.cameras[i].to_world, "\"camera\":" + std::to_string(i));
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        append_node(nodes.next(), scene.lights[i].name, placement(scene.lights[i]),
+                    "\"extensions\":{\"KHR_lights_punctual\":{\"light\":" + std::to_string(i) + "}}");
     }
     nodes.end();
-    text += ",\"scenes\":[{\"nodes\":[";
-    for (std::size_t i = 0; i < scene.instances.size() + scene.cameras.size(); ++i) {
-        if (i > 0) text += ',';
-        text += std::to_string(i);
-    }
-    text += "]}]";
 }
 
 // glTF forbids empty arrays, so what a scene lacks is left out.
-std::string make_json(const Scene& scene, Mode mode) {
+std::string make_json(const Scene& scene, Mode mode, Binary& binary) {
     std::string text = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Boxwood\"},\"scene\":0";
-    if (!scene.meshes.empty()) {
-        append_meshes(text, scene.meshes, mode);
-        append_accessors(text, scene.meshes);
-        append_buffer_views(text, scene.meshes);
-    }
+    if (!scene.meshes.empty()) append_meshes(text, scene.meshes, mode, binary);
+    std::vector<std::size_t> image_views;
+    for (const EncodedImage& image : scene.images) image_views.push_back(binary.add_view(image.bytes, ""));
+    append_looks(text, scene, image_views);
+    binary.append_json(text);
     if (!scene.cameras.empty()) append_cameras(text, scene.cameras);
-    if (scene.instances.empty() && scene.cameras.empty()) {
+    const std::size_t nodes = scene.instances.size() + scene.cameras.size() + scene.lights.size();
+    if (nodes == 0) {
         text += ",\"scenes\":[{}]";
     } else {
         append_nodes(text, scene);
+        text += ",\"scenes\":[{\"nodes\":[";
+        for (std::size_t i = 0; i < nodes; ++i) text += (i > 0 ? "," : "") + std::to_string(i);
+        text += "]}]";
     }
     text += '}';
     text.append((4 - text.size() % 4) % 4, ' ');
@@ -200,17 +228,12 @@ void write_u32(std::ostream& out, std::uint64_t value) {
     out.write(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
-template <class T>
-void write_array(std::ostream& out, const std::vector<T>& values) {
-    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
-}
-
 void save(const std::filesystem::path& file, const Scene& scene, Mode mode) {
     validate(scene, file.string());
-    const std::string text = make_json(scene, mode);
-    std::uint64_t binary = 0;
-    for (const Mesh& mesh : scene.meshes) binary += position_bytes(mesh) + triangle_bytes(mesh);
-    const std::uint64_t total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
+    Binary binary;
+    const std::string text = make_json(scene, mode, binary);
+    const std::uint64_t size = binary.size();
+    const std::uint64_t total = 12 + 8 + text.size() + (size > 0 ? 8 + size : 0);
     if (total > largest_file) {
         throw InputError(file.string(), "", "would have " + std::to_string(total) + " bytes; GLB ends at 4 GiB");
     }
@@ -222,13 +245,10 @@ void save(const std::filesystem::path& file, const Scene& scene, Mode mode) {
     write_u32(out, total);
     write_u32(out, text.size());
     out << "JSON" << text;
-    if (binary > 0) {
-        write_u32(out, binary);
+    if (size > 0) {
+        write_u32(out, size);
         out.write("BIN\0", 4);
-        for (const Mesh& mesh : scene.meshes) {
-            write_array(out, mesh.positions);
-            write_array(out, mesh.triangles);
-        }
+        binary.write(out);
     }
     target.commit();
 }

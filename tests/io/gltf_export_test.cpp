@@ -11,6 +11,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
+#include "io/samples.hpp"
 #include "support.hpp"
 
 TEST_SUITE_BEGIN("io");
@@ -96,6 +97,27 @@ TEST_CASE("cameras of both kinds come back") {
     scene.cameras.push_back({"a", glm::mat4(1), true, 0.7f});
     scene.cameras.push_back({"b", {{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {1, 2, 3, 1}}, false, 0.8f, 2.5f});
     check_round_trip(scene);
+}
+
+TEST_CASE("materials, textures, pictures, lights and attributes come back") {
+    Scene scene = test::sample_scene();
+    scene.counts = {};
+    scene.warnings = {};
+    scene.cameras.clear();                  // what a camera's kind does not read is not kept
+    scene.meshes[1].normals[0] = {0, 0, 1}; // a zero one gives a warning
+    const test::TemporaryFolder folder;
+    save_glb(folder.path() / "all.glb", scene);
+    const Scene loaded = load_gltf(folder.path() / "all.glb");
+    CHECK(loaded.warnings.empty());
+    CHECK(test::same(loaded, scene));
+
+    // A turned texture, but for rounding.
+    const float c = std::cos(0.7f), s = std::sin(0.7f);
+    const glm::mat3 turned(2 * c, -2 * s, 0, -3 * s, -3 * c, 0, 0.25f, 0.5f, 1);
+    scene.materials[0].normal_texture.transform = turned;
+    save_glb(folder.path() / "all.glb", scene);
+    const glm::mat3 back = load_gltf(folder.path() / "all.glb").materials[0].normal_texture.transform;
+    for (int column = 0; column < 3; ++column) CHECK(glm::length(back[column] - turned[column]) < 1e-6f);
 }
 
 TEST_CASE("nothing is written when it cannot be, or when the scene is broken") {
