@@ -2,6 +2,7 @@
 // The box spans [-1, 1]^3, open towards +z. Blocks are turned by angles with rational sine and cosine, so that every
 // corner has a closed form.
 #include <algorithm>
+#include <vector>
 
 #include "scene/procedural_kinds.hpp"
 #include "scene/transform.hpp"
@@ -61,6 +62,17 @@ Mesh make_wall(const char* name, glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, 
     return mesh;
 }
 
+// Matt walls and blocks, the left wall red and the right one green; the lamp gives light downwards and reflects none.
+void add_materials(Scene& scene) {
+    std::vector<Mesh>& meshes = scene.meshes;
+    paint(scene, meshes[0], "white", glm::vec3(0.73f));
+    for (const std::size_t white : {1, 2, 5, 6}) meshes[white].materials.assign(meshes[white].triangles.size(), 0);
+    paint(scene, meshes[3], "red", {0.63f, 0.065f, 0.05f});
+    paint(scene, meshes[4], "green", {0.14f, 0.45f, 0.091f});
+    paint(scene, meshes[7], "lamp", glm::vec3(0.0f));
+    scene.materials.back().emission = glm::vec3(15.0f);
+}
+
 } // namespace
 
 Scene make_cornell(const ProceduralOptions& options) {
@@ -80,6 +92,7 @@ Scene make_cornell(const ProceduralOptions& options) {
     for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
         scene.instances.push_back({scene.meshes[i].name, i, glm::mat4(1.0f)});
     }
+    add_materials(scene);
     scene.cameras.push_back({"camera", look_at({0, 0, 4}, {0, 0, 0}), true, 0.6875f});
     return scene;
 }

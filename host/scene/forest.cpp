@@ -100,6 +100,19 @@ Instance place_tree(Random& random, glm::vec2 cell) {
     return tree;
 }
 
+// Soil, bark, and leaves of a green of its own for each kind of tree.
+void add_materials(Scene& scene, std::size_t round) {
+    constexpr glm::vec3 greens[tree_kinds] = {{0.21f, 0.36f, 0.08f}, {0.1f, 0.27f, 0.07f}, {0.05f, 0.17f, 0.09f}};
+    paint(scene, scene.meshes[0], "soil", {0.31f, 0.25f, 0.16f});
+    Mesh bark;
+    paint(scene, bark, "bark", {0.23f, 0.14f, 0.08f});
+    for (std::size_t kind = 0; kind < tree_kinds; ++kind) {
+        Mesh& tree = scene.meshes[1 + kind];
+        paint(scene, tree, "leaves", greens[kind]);
+        std::fill_n(tree.materials.begin(), 2 * round, 1u); // the trunk's triangles come first
+    }
+}
+
 } // namespace
 
 Scene make_forest(const ProceduralOptions& options) {
@@ -114,6 +127,7 @@ Scene make_forest(const ProceduralOptions& options) {
     Scene scene;
     scene.meshes.push_back(make_ground(half));
     for (int kind = 1; kind <= tree_kinds; ++kind) scene.meshes.push_back(make_tree(kind, round));
+    add_materials(scene, round.size());
     scene.instances.reserve(trees + 1);
     scene.instances.push_back({"ground", 0, glm::mat4(1.0f)});
     Random random(options.seed);

@@ -84,7 +84,9 @@ Scene make_hair(const ProceduralOptions& options) {
             add_strand(mesh, {root + offset, direction, bend, length, 0x1p-9 * cell});
         }
     }
-    return single_mesh_scene(std::move(mesh), {1.5, 1.75, 2.25}, {0.0, 0.25, 0.0});
+    Scene scene = single_mesh_scene(std::move(mesh), {1.5, 1.75, 2.25}, {0.0, 0.25, 0.0});
+    paint(scene, scene.meshes[0], "straw", {0.62f, 0.47f, 0.21f});
+    return scene;
 }
 
 } // namespace boxwood

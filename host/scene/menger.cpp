@@ -91,7 +91,9 @@ Scene make_menger(const ProceduralOptions& options) {
     for (std::uint64_t cells = 20, face_cells = 8; 4 * cells + 8 * face_cells <= wanted; cells *= 20, face_cells *= 8) {
         side *= 3;
     }
-    return single_mesh_scene(SpongeMesh(side).build(), {1.75, 1.5, 3.25}, {0.0, 0.0, 0.0});
+    Scene scene = single_mesh_scene(SpongeMesh(side).build(), {1.75, 1.5, 3.25}, {0.0, 0.0, 0.0});
+    paint(scene, scene.meshes[0], "sandstone", {0.78f, 0.62f, 0.42f});
+    return scene;
 }
 
 } // namespace boxwood

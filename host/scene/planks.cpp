@@ -56,7 +56,9 @@ Scene make_planks(const ProceduralOptions& options) {
             add_board(mesh, rotation, middle + rotation * (length * shift), length * board_half);
         }
     }
-    return single_mesh_scene(std::move(mesh), {2.25, 1.75, 3.0}, {0.0, 0.0, 0.0});
+    Scene scene = single_mesh_scene(std::move(mesh), {2.25, 1.75, 3.0}, {0.0, 0.0, 0.0});
+    paint(scene, scene.meshes[0], "wood", {0.55f, 0.36f, 0.2f});
+    return scene;
 }
 
 } // namespace boxwood

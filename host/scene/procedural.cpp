@@ -28,6 +28,7 @@ constexpr std::array kinds{
     Kind{"menger", "the outside of a Menger sponge", make_menger},
     Kind{"hair", "bundles of long strands that lean away from the axes", make_hair},
     Kind{"planks", "piles of long boards, each pile turned at random", make_planks},
+    Kind{"materials", "rows of spheres, matt to polished, on a textured floor under two lights", make_materials},
 };
 
 } // namespace
@@ -37,6 +38,16 @@ std::uint64_t floor_sqrt(std::uint64_t value) {
     while (root * root > value) --root;
     while ((root + 1) * (root + 1) <= value) ++root;
     return root;
+}
+
+void paint(Scene& scene, Mesh& mesh, const char* name, glm::vec3 color) {
+    Material material;
+    material.name = name;
+    material.base_color = glm::vec4(color, 1.0f);
+    material.metallic = 0.0f;
+    material.specular = 0.0f;
+    mesh.materials.assign(mesh.triangles.size(), static_cast<std::uint32_t>(scene.materials.size()));
+    scene.materials.push_back(material);
 }
 
 Scene single_mesh_scene(Mesh mesh, glm::dvec3 eye, glm::dvec3 target) {

@@ -25,6 +25,15 @@ Scene make_hair(const ProceduralOptions& options);
 /// Piles of long thin boards in [-1, 1]^3, each pile under a random rotation; 12 triangles a board, closed.
 Scene make_planks(const ProceduralOptions& options);
 
+/// Spheres of many materials in two rows on a chequered floor, under a lamp and a point light; 96 f^2 + 4 triangles in 14 meshes.
+Scene make_materials(const ProceduralOptions& options);
+
+/// The unit sphere of 8 f^2 triangles, f > 0, with its normals.
+Mesh sphere_mesh(std::uint64_t f);
+
+/// Adds a material that scatters alike in all directions, and gives all triangles of `mesh` that material.
+void paint(Scene& scene, Mesh& mesh, const char* name, glm::vec3 color);
+
 /// The largest integer whose square is not above `value`.
 std::uint64_t floor_sqrt(std::uint64_t value);
 

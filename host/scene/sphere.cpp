@@ -65,9 +65,8 @@ void add_band(Mesh& mesh, const Rings& rings, std::int64_t inner, std::int64_t o
 
 } // namespace
 
-Scene make_sphere(const ProceduralOptions& options) {
-    const std::uint64_t wanted = options.triangles != 0 ? options.triangles : 32'768;
-    const Rings rings{static_cast<std::int64_t>(std::max<std::uint64_t>(1, floor_sqrt(wanted / 8)))};
+Mesh sphere_mesh(std::uint64_t f) {
+    const Rings rings{static_cast<std::int64_t>(f)};
     Mesh mesh{"sphere", {}, {}};
     mesh.positions.reserve(static_cast<std::size_t>(4 * rings.f * rings.f + 2));
     mesh.triangles.reserve(static_cast<std::size_t>(8 * rings.f * rings.f));
@@ -76,7 +75,18 @@ Scene make_sphere(const ProceduralOptions& options) {
     }
     for (std::int64_t ring = 0; ring < rings.f; ++ring) add_band(mesh, rings, ring, ring + 1, false);
     for (std::int64_t ring = rings.f; ring < 2 * rings.f; ++ring) add_band(mesh, rings, ring + 1, ring, true);
-    return single_mesh_scene(std::move(mesh), {0.0, 1.0, 3.0}, {0.0, 0.0, 0.0});
+    mesh.normals = mesh.positions;
+    return mesh;
+}
+
+Scene make_sphere(const ProceduralOptions& options) {
+    const std::uint64_t wanted = options.triangles != 0 ? options.triangles : 32'768;
+    Mesh mesh = sphere_mesh(std::max<std::uint64_t>(1, floor_sqrt(wanted / 8)));
+    Scene scene = single_mesh_scene(std::move(mesh), {0.0, 1.0, 3.0}, {0.0, 0.0, 0.0});
+    paint(scene, scene.meshes[0], "glaze", {0.85f, 0.35f, 0.12f});
+    scene.materials[0].specular = 1.0f;
+    scene.materials[0].roughness = 0.25f;
+    return scene;
 }
 
 } // namespace boxwood

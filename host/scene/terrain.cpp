@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "scene/procedural_kinds.hpp"
@@ -42,6 +43,23 @@ float height(std::uint64_t seed, float x, float z) {
     return sum;
 }
 
+// From the slopes between the neighbours of each point of a grid with `columns` points a row.
+void add_normals(Mesh& mesh, std::uint32_t columns) {
+    const auto rows = static_cast<std::uint32_t>(mesh.positions.size() / columns);
+    const auto at = [&](std::uint32_t row, std::uint32_t column) {
+        return glm::dvec3(mesh.positions[std::size_t{row} * columns + column]);
+    };
+    mesh.normals.reserve(mesh.positions.size());
+    for (std::uint32_t j = 0; j < rows; ++j) {
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const glm::dvec3 x = at(j, std::min(i + 1, columns - 1)) - at(j, i > 0 ? i - 1 : 0);
+            const glm::dvec3 z = at(std::min(j + 1, rows - 1), i) - at(j > 0 ? j - 1 : 0, i);
+            const glm::dvec3 up(-x.y * z.z, x.x * z.z, -z.y * x.x);
+            mesh.normals.emplace_back(up / std::sqrt(glm::dot(up, up)));
+        }
+    }
+}
+
 } // namespace
 
 Scene make_terrain(const ProceduralOptions& options) {
@@ -67,7 +85,10 @@ Scene make_terrain(const ProceduralOptions& options) {
             mesh.triangles.emplace_back(a + 1, c, c + 1);
         }
     }
-    return single_mesh_scene(std::move(mesh), {0.0, 1.25, 2.0}, {0.0, 0.0, 0.0});
+    add_normals(mesh, width + 1);
+    Scene scene = single_mesh_scene(std::move(mesh), {0.0, 1.25, 2.0}, {0.0, 0.0, 0.0});
+    paint(scene, scene.meshes[0], "grass", {0.24f, 0.34f, 0.13f});
+    return scene;
 }
 
 } // namespace boxwood

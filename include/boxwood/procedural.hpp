@@ -24,7 +24,7 @@ struct ProceduralKind {
     std::string description;
 };
 
-/// cornell, random (triangles), terrain, sphere, forest (instanced), menger (sponge), hair, planks.
+/// cornell, random (triangles), terrain, sphere, forest (instanced), menger (sponge), hair, planks, materials.
 std::vector<ProceduralKind> procedural_kinds();
 
 /// Makes a scene with a camera that shows it. The same kind and options give the same bytes on every machine.

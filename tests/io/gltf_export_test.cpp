@@ -52,6 +52,11 @@ void check_round_trip(const Scene& scene) {
         if (!perspective) CHECK(loaded.cameras[i].half_height == scene.cameras[i].half_height);
     }
     CHECK(loaded.warnings.empty());
+    REQUIRE(loaded.materials.size() == scene.materials.size());
+    REQUIRE(loaded.lights.size() == scene.lights.size());
+    REQUIRE(loaded.images.size() == scene.images.size());
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        CHECK(loaded.meshes[i].materials == scene.meshes[i].materials);
 }
 
 Scene one_triangle() {

@@ -76,7 +76,7 @@ TEST_CASE("every kind is valid, has a camera, and depends on nothing but its opt
                             kind.name == "hair" || kind.name == "planks";
         CHECK((digest(scene) != digest(make_procedural(kind.name, {0, 0, 2}))) == seeded);
     }
-    CHECK(procedural_kinds().size() == 8);
+    CHECK(procedural_kinds().size() == 9);
 }
 
 TEST_CASE("triangle counts are reached from below as closely as the shape allows") {
@@ -100,8 +100,39 @@ TEST_CASE("triangle counts are reached from below as closely as the shape allows
     CHECK(count("menger", 40'000) == 4 * 8000 + 8 * 512);
     CHECK(count("hair", 1) == 50);
     CHECK(count("hair", 40'000) == 800 * 50);
+    CHECK(count("materials", 1) == 12 * 8 + 4);
+    CHECK(count("materials", 40'000) == 12 * 8 * 20 * 20 + 4);
     CHECK(count("planks", 1) == 12);
     CHECK(count("planks", 40'000) == 3333 * 12);
+}
+
+TEST_CASE("surfaces have materials, and smooth ones the normals of their shape") {
+    for (const ProceduralKind& kind : procedural_kinds()) {
+        CAPTURE(kind.name);
+        const Scene scene = make_procedural(kind.name, {3000});
+        for (const Mesh& mesh : scene.meshes) CHECK(mesh.materials.empty() == (kind.name == "random"));
+    }
+    // Against the triangles around each vertex, weighted by area; terrain is rough.
+    for (const char* kind : {"sphere", "terrain"}) {
+        const Mesh mesh = make_procedural(kind, {30'000}).meshes[0];
+        std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+        for (const glm::uvec3& t : mesh.triangles) {
+            const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+            for (int i = 0; i < 3; ++i) sums[t[i]] += glm::cross(b - a, c - a);
+        }
+        REQUIRE(mesh.normals.size() == sums.size());
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            CHECK(glm::dot(glm::normalize(sums[i]), glm::dvec3(mesh.normals[i])) > 0.85);
+    }
+    // The box is lit from its ceiling, downwards.
+    const Scene cornell = make_procedural("cornell");
+    const Mesh& lamp = cornell.meshes[7];
+    CHECK(cornell.materials[lamp.materials[0]].emission == glm::vec3(15.0f));
+    const glm::vec3 a = lamp.positions[lamp.triangles[0].x];
+    const glm::vec3 across =
+        glm::cross(lamp.positions[lamp.triangles[0].y] - a, lamp.positions[lamp.triangles[0].z] - a);
+    CHECK(across.y < 0.0f);
+    CHECK(make_procedural("materials").lights.size() == 1);
 }
 
 TEST_CASE("the sphere is closed, outward and shares every vertex") {
