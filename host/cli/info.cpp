@@ -4,10 +4,14 @@
 #include <iostream>
 #include <memory>
 
+#include "boxwood/error.hpp"
+#include "boxwood/requirements.hpp"
 #include "cli/input.hpp"
 #include "cli/report.hpp"
 #include "hierarchy/tree_boxes.hpp"
 #include "io/gltf_lines.hpp"
+#include "io/picture.hpp"
+#include "render/appearance_lights.hpp"
 
 namespace boxwood::cli {
 
@@ -58,6 +62,47 @@ Json cameras_report(const Scene& scene) {
     return cameras;
 }
 
+/// Of a picture; none when its head cannot be read.
+std::optional<PictureSize> size_of(const EncodedImage& image) {
+    try {
+        return picture_size(image);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+Json images_report(const Scene& scene) {
+    Json images = Json::array();
+    for (const EncodedImage& image : scene.images) {
+        const PictureSize size = size_of(image).value_or(PictureSize{});
+        images.push_back({{"name", image.name}, {"width", size.width}, {"height", size.height}});
+    }
+    return images;
+}
+
+/// The options that a tree was built with, as far as requirements go; of a scene the defaults.
+BuildOptions options_of(const Input& input) {
+    BuildOptions options;
+    if (!input.tree) return options;
+    options.levels = input.tree->levels;
+    options.bounds.kind = input.tree->bounds;
+    return options;
+}
+
+Json reasons_report(const Input& input) {
+    Json list = Json::array();
+    for (const Reason& reason : reasons(input.scene, options_of(input)))
+        list.push_back({{"word", reason.word}, {"because", reason.because}});
+    return list;
+}
+
+/// Triangles that are lights, each as often as its mesh is placed.
+std::uint64_t emitting_triangles(const Scene& scene) {
+    ShadingRequirements emission;
+    emission.emission = true;
+    return light_limit(scene, emission);
+}
+
 Json tree_report(const TreeImage& tree) {
     return {{"layout", name(tree.layout)},       {"levels", name(tree.levels)},
             {"bounds", name(tree.bounds)},       {"bottom_nodes", bottom_nodes(tree)},
@@ -84,6 +129,31 @@ void print_scene(const Input& input) {
                   << " primitives of points or lines\n";
 }
 
+void print_looks(const Scene& scene) {
+    std::cout << "  materials   " << grouped(scene.materials.size()) << '\n'
+              << "  textures    " << grouped(scene.textures.size()) << '\n';
+    constexpr std::size_t most_lines = 8;
+    for (std::size_t i = 0; i < scene.images.size() && i < most_lines; ++i) {
+        std::cout << "  image " << i << "     \"" << scene.images[i].name << "\", ";
+        if (const auto size = size_of(scene.images[i]))
+            std::cout << size->width << " x " << size->height << '\n';
+        else
+            std::cout << "cannot be read\n";
+    }
+    if (scene.images.size() > most_lines)
+        std::cout << "  images      " << scene.images.size() - most_lines << " more\n";
+    std::cout << "  lights      " << grouped(scene.lights.size()) << " punctual, " << grouped(emitting_triangles(scene))
+              << " emitting triangles\n";
+}
+
+void print_reasons(const Input& input) {
+    const char* head = "  requires    ";
+    for (const Reason& reason : reasons(input.scene, options_of(input))) {
+        std::cout << head << reason.word << ": " << reason.because << '\n';
+        head = "              ";
+    }
+}
+
 void print_tree(const TreeImage& tree) {
     std::cout << "  tree        " << name(tree.layout) << ", " << name(tree.bounds) << ", "
               << (tree.levels == Levels::two ? "two levels" : "one level") << '\n'
@@ -103,11 +173,16 @@ void run(const Arguments& arguments) {
     if (arguments.json) {
         Json report = {{"boxwood", BOXWOOD_VERSION}, {"scene", scene_report(input)}};
         report["cameras"] = cameras_report(input.scene);
+        report["images"] = images_report(input.scene);
+        report["emitting_triangles"] = emitting_triangles(input.scene);
+        report["requirements"] = reasons_report(input);
         if (input.tree) report["tree"] = tree_report(*input.tree);
         std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     } else if (!arguments.common.quiet) {
         print_scene(input);
+        print_looks(input.scene);
         if (input.tree) print_tree(*input.tree);
+        print_reasons(input);
     }
     if (!arguments.boxes.empty()) export_boxes(arguments, input);
 }

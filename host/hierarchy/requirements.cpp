@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/requirements.hpp"
 
+#include "scene/shading_reasons.hpp"
+
 namespace boxwood {
 
 Requirements requirements(const Scene& scene, const BuildOptions& options) {
@@ -10,6 +12,34 @@ Requirements requirements(const Scene& scene, const BuildOptions& options) {
     needs.instance_lookup = !needs.two_levels && scene.instances.size() > 1;
     needs.oriented_boxes = options.bounds.kind != Bounds::aabb;
     return needs;
+}
+
+namespace {
+
+std::string two_levels_because(const Scene& scene, const BuildOptions& options) {
+    if (options.levels == Levels::two) return "the options ask for two levels";
+    std::vector<std::uint64_t> placed(scene.meshes.size(), 0);
+    for (const Instance& instance : scene.instances) ++placed[instance.mesh];
+    std::size_t i = 0;
+    while (placed[i] < 2) ++i;
+    return "meshes[" + std::to_string(i) + "] \"" + scene.meshes[i].name + "\" is placed " + std::to_string(placed[i]) +
+           " times";
+}
+
+} // namespace
+
+std::vector<Reason> reasons(const Scene& scene, const BuildOptions& options) {
+    const Requirements needs = requirements(scene, options);
+    std::vector<Reason> result;
+    if (needs.two_levels) result.push_back({"two-levels", two_levels_because(scene, options)});
+    if (needs.instance_lookup)
+        result.push_back(
+            {"instance-lookup", "one level holds " + std::to_string(scene.instances.size()) + " instances"});
+    if (needs.oriented_boxes)
+        result.push_back({"oriented-boxes", "the options ask for " + std::string(name(options.bounds.kind))});
+    const std::vector<Reason> shading = shading_reasons(scene);
+    result.insert(result.end(), shading.begin(), shading.end());
+    return result;
 }
 
 std::vector<std::string> words(const Requirements& needs) {

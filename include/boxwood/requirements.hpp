@@ -45,13 +45,17 @@ struct ShadingRequirements {
 /// Of the meshes that have an instance and the materials that their triangles name. O(size of the scene).
 ShadingRequirements shading_requirements(const Scene& scene);
 
+/// The words for reports: "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",
+/// "textures", "alpha", "specular", "emission", "punctual-lights".
+std::vector<std::string> words(const ShadingRequirements& requirements);
+
 /// A word for reports, and why it is there: the first element that asks for it, or the option.
 struct Reason {
     std::string word;
     std::string because;
 };
 
-/// All that requirements() and shading_requirements() name. O(size of the scene).
+/// All that requirements() and shading_requirements() name, in the order of their words. O(size of the scene).
 std::vector<Reason> reasons(const Scene& scene, const BuildOptions& options);
 
 } // namespace boxwood

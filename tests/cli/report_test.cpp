@@ -107,6 +107,20 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
     file["scene"].erase("file");
     CHECK(scene["scene"] == file["scene"]);
     CHECK(scene["cameras"] == file["cameras"]);
+    CHECK(scene["requirements"] == file["requirements"]);
+    CHECK(scene["requirements"][0]["word"] == "two-levels");
+    CHECK(scene["requirements"][1]["because"] == "materials[0] \"soil\" and materials[1] \"bark\" are in use");
+
+    tool.succeed("scene materials --triangles 100 -o m.glb");
+    const Json looks = Json::parse(tool.succeed("info m.glb --json").out);
+    CHECK(looks["scene"]["materials"] == 14);
+    CHECK(looks["scene"]["lights"] == 1);
+    CHECK(looks["emitting_triangles"] == 2);
+    CHECK(looks["images"] == Json::parse(R"([{"name": "chequer", "width": 64, "height": 64}])"));
+    const std::string text = tool.succeed("info m.glb").out;
+    for (const char* line :
+         {"\"chequer\", 64 x 64", "1 punctual, 2 emitting", "emission: materials[13] \"lamp\" emits light"})
+        CHECK(text.find(line) != std::string::npos);
 }
 
 TEST_CASE("report: a scene and its .bxw file give the same hits and the same picture") {

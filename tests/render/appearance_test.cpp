@@ -100,6 +100,42 @@ TEST_CASE("shading requires what materials and meshes in use ask for, and nothin
     CHECK(shading_requirements(scene).punctual);
 }
 
+TEST_CASE("every required word has its reason, which names the element that asks first") {
+    Scene scene = one_square(plain_material());
+    CHECK(reasons(scene, {}).empty());
+    CHECK(reasons(Scene{}, {}).empty());
+    scene.materials[0].name = "lamp";
+    scene.materials[0].emission = {1, 0, 0};
+    scene.materials[0].normal_texture = {0, 1};
+    scene.images.push_back(image("noise", {2, 2}, noise({2, 2}, 1)));
+    scene.textures.push_back({0});
+    scene.meshes[0].materials[1] = BOXWOOD_NONE;
+    scene.meshes[0].colors.assign(4, {1, 1, 1, 1});
+    scene.instances.push_back({"again", 0, glm::mat4(2.0f)});
+    scene.lights.push_back({"sun", LightKind::directional});
+    BuildOptions options;
+    options.bounds.kind = Bounds::obb_points;
+    const std::vector<Reason> all = reasons(scene, options);
+    std::vector<std::string> expected = words(requirements(scene, options));
+    const std::vector<std::string> shading = words(shading_requirements(scene));
+    expected.insert(expected.end(), shading.begin(), shading.end());
+    REQUIRE(all.size() == expected.size());
+    for (std::size_t i = 0; i < all.size(); ++i) CHECK(all[i].word == expected[i]);
+    const auto because = [&all](const std::string& word) {
+        for (const Reason& reason : all)
+            if (reason.word == word) return reason.because;
+        return std::string("nothing");
+    };
+    CHECK(because("two-levels") == "meshes[0] \"square\" is placed 2 times");
+    CHECK(because("oriented-boxes") == "the options ask for obb-points");
+    CHECK(because("materials") == "materials[0] \"lamp\" and the plain material are in use");
+    CHECK(because("second-texture-coordinates") == "materials[0] \"lamp\" has a texture of its normal");
+    CHECK(because("colors") == "meshes[0] \"square\" has colours");
+    CHECK(because("emission") == "materials[0] \"lamp\" emits light");
+    CHECK(because("punctual-lights") == "lights[0] \"sun\" is one");
+    CHECK(because("alpha") == "nothing");
+}
+
 TEST_CASE("attributes are interleaved, with zeros and white where a mesh lacks them") {
     Scene scene = one_square(plain_material());
     Mesh rich = square();

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "boxwood/requirements.hpp"
+
+namespace boxwood {
+
+/// The part of reasons() about shading.
+std::vector<Reason> shading_reasons(const Scene& scene);
+
+} // namespace boxwood
