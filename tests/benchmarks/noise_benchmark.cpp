@@ -48,6 +48,8 @@ struct Settings {
     std::uint32_t reference_samples = 2048;
     std::uint32_t depth = 5;
     std::string interior;
+    bool stages_only = false;
+    int rounds = 1;
 };
 
 struct Point {
@@ -156,10 +158,11 @@ json stage_shares(Device& device, const test::LitScene& lit, const Study& study,
     const LightOptions options = options_of(contenders[0], 2, settings.depth, 7);
     take_picture(device, lit, study.camera, frame, options);
     device.take_profile();
-    take_picture(device, lit, study.camera, frame, options);
+    for (int round = 0; round < settings.rounds; ++round) take_picture(device, lit, study.camera, frame, options);
     const Profile profile = device.take_profile();
     json shares;
-    std::printf("  %.3g Mpaths/s;", frame.width * frame.height * options.samples / profile.total_ms() * 1e-3);
+    std::printf("  %.3g Mpaths/s;",
+                settings.rounds * 1e-3 * frame.width * frame.height * options.samples / profile.total_ms());
     double traced = 0.0;
     for (const PassTime& pass : profile.passes) {
         const bool trace = pass.label == "closest hit" || pass.label == "any hit";
@@ -177,6 +180,7 @@ json run_study(Device& device, const Study& study, const Settings& settings) {
     const test::LitScene lit(device, study.scene, study.around);
     std::printf("%s\n", study.name.c_str());
     json report{{"stages", stage_shares(device, lit, study, settings)}};
+    if (settings.stages_only) return report;
     const test::Picture reference =
         take_picture(device, lit, study.camera, {settings.across, settings.across},
                      options_of(contenders[0], settings.reference_samples, settings.depth, 1'000'003));
@@ -217,6 +221,8 @@ int run(int argc, char** argv) {
     app.add_option("--reference", settings.reference_samples, "samples of the reference")
         ->check(CLI::Range(1, 1 << 20));
     app.add_option("--depth", settings.depth, "bounces")->check(CLI::Range(0, 64));
+    app.add_flag("--stages", settings.stages_only, "the shares of the stages alone");
+    app.add_option("--rounds", settings.rounds, "pictures over which the stages are timed")->check(CLI::Range(1, 1000));
     CLI11_PARSE(app, argc, argv);
 
     Device device(wanted);
