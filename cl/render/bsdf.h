@@ -6,6 +6,7 @@
 // UNIFORM_HEMISPHERE  1: the Lambert lobe is sampled uniformly, to see what cosines save; 0: by the cosine
 #ifndef BOXWOOD_RENDER_BSDF_H
 #define BOXWOOD_RENDER_BSDF_H
+#include "runtime/inline.h"
 #include "runtime/numerics.h"
 
 #if !defined(SPECULAR) || !defined(UNIFORM_HEMISPHERE)
@@ -28,7 +29,7 @@ typedef struct Bsdf {
 #define SMALLEST_ALPHA 0x1p-13f
 
 /// `roughness` is perceptual; everything in [0, 1].
-inline void make_bsdf(float3 base_color, float metallic, float roughness, float specular, Bsdf* bsdf) {
+INLINE void make_bsdf(float3 base_color, float metallic, float roughness, float specular, Bsdf* bsdf) {
     bsdf->diffuse = base_color * (1.0f - metallic);
 #if SPECULAR
     bsdf->f0 = (float3)(0.04f * specular * (1.0f - metallic)) + metallic * base_color;
@@ -41,29 +42,29 @@ inline void make_bsdf(float3 base_color, float metallic, float roughness, float 
 #endif
 }
 
-inline float luminance(float3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+INLINE float luminance(float3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 #if SPECULAR
 /// (1 - x)^5, x in [0, 1].
-inline float schlick_weight(float x) {
+INLINE float schlick_weight(float x) {
     const float m = 1.0f - x, m2 = m * m;
     return m2 * m2 * m;
 }
 
 /// Normalised distribution of microfacet normals (Walter et al. 2007), in a form that does not cancel near z = 1.
-inline float ggx_distribution(float3 h, float alpha) {
+INLINE float ggx_distribution(float3 h, float alpha) {
     const float a2 = alpha * alpha;
     const float t = (h.x * h.x + h.y * h.y) + a2 * (h.z * h.z);
     return a2 * M_1_PI_F / (t * t);
 }
 
 /// z (1 + 2 Lambda(w)) with Smith's shadowing term Lambda, which alone is infinite at grazing angles.
-inline float ggx_shadowing(float3 w, float alpha) {
+INLINE float ggx_shadowing(float3 w, float alpha) {
     return sqrt(w.z * w.z + (alpha * alpha) * (w.x * w.x + w.y * w.y));
 }
 
 /// Probability of taking the GGX lobe.
-inline float specular_share(const Bsdf* bsdf, float cosine) {
+INLINE float specular_share(const Bsdf* bsdf, float cosine) {
     const float weight = schlick_weight(LESSER(cosine, 1.0f));
     const float mirrored = luminance(bsdf->f0 + ((float3)(bsdf->f90) - bsdf->f0) * weight);
     const float scattered = luminance(bsdf->diffuse);
@@ -71,7 +72,7 @@ inline float specular_share(const Bsdf* bsdf, float cosine) {
 }
 
 /// A normal of the microfacets that `wo` sees, by their visible area (Dupuy and Benyoub 2023: a cap of the sphere).
-inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
+INLINE float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
     const float3 stretched = (float3)(alpha * wo.x, alpha * wo.y, wo.z);
     const float3 view = stretched / sqrt(dot(stretched, stretched));
     const float z = fma(1.0f - u.y, 1.0f + view.z, -view.z);
@@ -83,7 +84,7 @@ inline float3 sample_visible_normal(float3 wo, float alpha, float2 u) {
 }
 #endif
 
-inline float lambert_pdf(float cosine) {
+INLINE float lambert_pdf(float cosine) {
 #if UNIFORM_HEMISPHERE
     (void)cosine;
     return 0.5f * M_1_PI_F;
@@ -93,7 +94,7 @@ inline float lambert_pdf(float cosine) {
 }
 
 /// f(wo, wi) cos wi and the density with which sample_bsdf draws wi, by solid angle. Both 0 unless both are above the surface.
-inline void evaluate_bsdf(const Bsdf* bsdf, float3 wo, float3 wi, float3* value, float* pdf) {
+INLINE void evaluate_bsdf(const Bsdf* bsdf, float3 wo, float3 wi, float3* value, float* pdf) {
     *value = (float3)(0.0f);
     *pdf = 0.0f;
     if (!(wo.z > 0.0f && wi.z > 0.0f)) return;
@@ -118,7 +119,7 @@ inline void evaluate_bsdf(const Bsdf* bsdf, float3 wo, float3 wi, float3* value,
 }
 
 /// A direction on the hemisphere for the Lambert lobe.
-inline float3 sample_lambert(float2 u) {
+INLINE float3 sample_lambert(float2 u) {
 #if UNIFORM_HEMISPHERE
     const float z = 1.0f - u.y;
     const float radius = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
@@ -129,7 +130,7 @@ inline float3 sample_lambert(float2 u) {
 }
 
 /// Draws *wi; `choice` in [0, 1) takes the lobe. What is drawn may lie below the surface: then evaluate_bsdf gives 0.
-inline void sample_bsdf(const Bsdf* bsdf, float3 wo, float choice, float2 u, float3* wi) {
+INLINE void sample_bsdf(const Bsdf* bsdf, float3 wo, float choice, float2 u, float3* wi) {
 #if SPECULAR
     if (choice < specular_share(bsdf, wo.z)) {
         const float3 h = sample_visible_normal(wo, bsdf->alpha, u);

@@ -47,7 +47,7 @@ inline void find_pixel(const SceneArrays* scene, global const CameraRecord* came
 #if HAS_BEAMS
     Beam beam;
     pixel_beam(camera, ray, hit.t, share, &beam);
-    place_beam(scene, ray, hit, beam, &place);
+    place_beam(scene, vload3(0, ray.direction), hit, beam, &place);
 #endif
 #if PLANES & 7
     const Surface surface = surface_at(scene->positions, scene->triangles, scene->meshes, scene->instances, ray, hit);

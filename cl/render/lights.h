@@ -32,7 +32,7 @@ typedef struct LightSample {
 #define BEFORE_END 0x1.fffffep-1f
 
 /// The light without extent that `light` is, chosen with `probability`; value 0 where it does not reach.
-inline void sample_punctual(global const LightRecord* light, float3 origin, float probability, LightSample* sample) {
+INLINE void sample_punctual(global const LightRecord* light, float3 origin, float probability, LightSample* sample) {
     const float3 axis = vload3(0, light->direction), intensity = vload3(0, light->intensity);
     sample->pdf = 0.0f;
     if (light->kind == BOXWOOD_DIRECTIONAL_LIGHT) {
@@ -57,7 +57,7 @@ inline void sample_punctual(global const LightRecord* light, float3 origin, floa
 }
 
 /// Radiance of a triangle at a place on it, towards its front.
-inline float3 light_radiance(const SceneArrays* scene, global const LightRecord* light, Hit place) {
+INLINE float3 light_radiance(const SceneArrays* scene, global const LightRecord* light, Hit place) {
     float3 radiance = vload3(0, light->intensity);
 #if TEXTURES || ALPHA
     Place at;
@@ -79,29 +79,29 @@ inline float3 light_radiance(const SceneArrays* scene, global const LightRecord*
 }
 
 #if EMISSION
-/// The triangle that `light` is, at a uniform point of it. The segment ends clear of it (surface_clearance).
-inline void sample_triangle(const SceneArrays* scene, global const LightRecord* light, float3 origin, float2 u,
+/// The triangle that `light` is, at a uniform point of it. The segment ends clear of it.
+INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* light, float3 origin, float2 u,
                             float probability, LightSample* sample) {
     const float root = sqrt(u.x);
     const Hit place = {1.0f, root * (1.0f - u.y), root * u.y, light->primitive, light->instance};
-    const float3 near = vload3(0, light->position) + (place.u * vload3(0, light->edges[0]) + place.v * vload3(0, light->edges[1]));
-    Ray ray;
-    vstore3(near - origin, 0, ray.direction);
-    const Surface surface = surface_at(scene->positions, scene->triangles, scene->meshes, scene->instances, ray, place);
-    sample->segment = surface_origin(surface) - origin;
+    const float3 point = vload3(0, light->position) + (place.u * vload3(0, light->edges[0]) + place.v * vload3(0, light->edges[1]));
+    const float3 front = vload3(0, light->direction);
+    const bool behind = dot(front, origin - point) < 0.0f;
+    const float3 normal = behind ? -front : front;
+    sample->segment = point + light->clearance * normal - origin;
     sample->t_max = BEFORE_END;
     sample->direction = normalize_any(sample->segment);
-    const float cosine = -dot(sample->direction, surface.normal);
+    const float cosine = -dot(sample->direction, normal);
     sample->value = (float3)(0.0f);
     sample->pdf = 0.0f;
-    if (!(cosine > 0.0f) || !(surface.front || light->two_sided)) return;
+    if (!(cosine > 0.0f) || (behind && !light->two_sided)) return;
     sample->pdf = probability * (dot(sample->segment, sample->segment) / (cosine * light->area));
     if (sample->pdf > 0.0f) sample->value = light_radiance(scene, light, place) / sample->pdf;
 }
 
 /// Density, by solid angle, with which sample_light draws the place that a ray met after `distance` at an angle of `cosine`.
 /// O(log lights): triangles are ordered by instance and primitive, after the lights without extent.
-inline float triangle_pdf(const LightArrays* lights, Hit hit, float distance, float cosine) {
+INLINE float triangle_pdf(const LightArrays* lights, Hit hit, float distance, float cosine) {
     const ulong wanted = (ulong)hit.instance << 32 | hit.primitive;
     uint low = 0, high = lights->count;
     while (low < high) {
@@ -120,7 +120,7 @@ inline float triangle_pdf(const LightArrays* lights, Hit hit, float distance, fl
 #endif
 
 /// Light on `origin`; `choice` in [0, 1) takes the light, which all together have `share` of the samples, u the point on it.
-inline void sample_light(const SceneArrays* scene, const LightArrays* lights, float3 origin, float choice, float2 u,
+INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, float3 origin, float choice, float2 u,
                          float share, LightSample* sample) {
     float probability;
     const uint index = choose(lights->distribution, lights->count, &choice, &probability);

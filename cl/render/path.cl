@@ -20,25 +20,26 @@
 typedef struct Gathered {
     float3 light;       ///< Radiance along the ray, times the throughput.
     float3 shadow;      ///< What the shadow ray stands for, times the throughput.
-    Ray shadow_ray;
+    PathRay shadow_ray;
     bool has_shadow;
 } Gathered;
 
-/// Follows one path at its hit. Returns whether it goes on, with `state` and `ray` as they then are.
-inline bool follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera, Hit hit,
-                   PathState* state, Ray* ray, Gathered* gathered) {
-    const uint bounces = state->counts & 0xffffu, layers = state->counts >> 16;
-    const float3 direction = vload3(0, ray->direction), throughput = vload3(0, state->throughput);
+/// Follows one path at its hit. Returns whether it goes on, with `path` and `ray` as they then are.
+INLINE bool follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera, Hit hit,
+                   Path* path, PathRay* ray, Gathered* gathered) {
+    const uint bounces = path->counts & 0xffffu, layers = path->counts >> 16;
+    const float3 direction = ray->direction, throughput = path->throughput;
     gathered->light = (float3)(0.0f);
     gathered->has_shadow = false;
     if (hit.primitive == BOXWOOD_NONE) {
-        gathered->light = throughput * sky_light(world, direction, bounces == 0, state->pdf);
+        gathered->light = throughput * sky_light(world, direction, bounces == 0, path->pdf);
         return false;
     }
-    const Sampler sampler = {random_key(settings->seed, (ulong)settings->first_pixel + state->pixel), settings->sample,
+    if (bounces >= settings->depth && !may_shine(&world->scene, hit)) return false;
+    const Sampler sampler = {random_key(settings->seed, (ulong)settings->first_pixel + path->pixel), settings->sample,
                              settings->samples};
     Beam beam;
-    const float width = fma(state->spread, hit.t, state->width);
+    const float width = fma(path->spread, hit.t, path->width);
 #if TEXTURES
     if (bounces == 0)
         camera_beam(camera, direction, hit.t, settings->samples, &beam);
@@ -49,18 +50,18 @@ inline bool follow(const PathWorld* world, const PathSettings* settings, global 
     (void)camera;
 #endif
     Vertex vertex;
-    shading_point(&world->scene, *ray, hit, beam, &vertex.point);
+    find_shading_point(&world->scene, direction, hit, beam, &vertex.point);
 #if ALPHA
     const float alpha = vertex.point.alpha;
     if (alpha < 1.0f && sample_square(&sampler, ALPHA_DIMENSION + layers).x >= alpha) {
         ray->t_min = hit.t;
-        state->counts += 0x10000u;
+        path->counts += 0x10000u;
         return layers < BOXWOOD_MOST_LAYERS;
     }
 #else
     (void)layers;
 #endif
-    gathered->light = throughput * surface_light(world, &vertex.point, direction, hit, bounces == 0, state->pdf);
+    gathered->light = throughput * surface_light(world, &vertex.point, direction, hit, bounces == 0, path->pdf);
     // A triangle without area has no normal.
     const bool solid = dot(vertex.point.surface.normal, vertex.point.surface.normal) > 0.0f;
     if ((vertex.point.flags & BOXWOOD_UNLIT) || bounces >= settings->depth || !solid) return false;
@@ -73,20 +74,52 @@ inline bool follow(const PathWorld* world, const PathSettings* settings, global 
                                       &gathered->shadow_ray, &gathered->shadow);
     gathered->shadow *= throughput;
 #endif
-    return scatter_path(&vertex, settings, &sampler, dimension, choice.y, width, state, ray);
+    return scatter_path(&vertex, settings, &sampler, dimension, choice.y, width, path, ray);
 }
 
-inline void add_light(float3 light, global float* sum) {
+INLINE void add_light(float3 light, global float* sum) {
     if (usable(light)) vstore3(vload3(0, sum) + light, 0, sum);
+}
+
+INLINE void load_ray(global const Ray* from, PathRay* ray) {
+    ray->origin = vload3(0, from->origin);
+    ray->t_min = from->t_min;
+    ray->direction = vload3(0, from->direction);
+    ray->t_max = from->t_max;
+}
+
+INLINE void store_ray(const PathRay* ray, global Ray* to) {
+    vstore3(ray->origin, 0, to->origin);
+    to->t_min = ray->t_min;
+    vstore3(ray->direction, 0, to->direction);
+    to->t_max = ray->t_max;
+}
+
+INLINE void load_path(global const PathState* from, Path* path) {
+    path->throughput = vload3(0, from->throughput);
+    path->pdf = from->pdf;
+    path->pixel = from->pixel;
+    path->counts = from->counts;
+    path->width = from->width;
+    path->spread = from->spread;
+}
+
+INLINE void store_path(const Path* path, global PathState* to) {
+    vstore3(path->throughput, 0, to->throughput);
+    to->pdf = path->pdf;
+    to->pixel = path->pixel;
+    to->counts = path->counts;
+    to->width = path->width;
+    to->spread = path->spread;
 }
 
 #if NEXT_EVENT
 /// A ray with a zero direction hits nothing.
-inline void store_shadow(const Gathered* gathered, uint pixel, bool indirect, global Ray* ray, global ShadowLight* light) {
+INLINE void store_shadow(const Gathered* gathered, uint pixel, bool indirect, global Ray* ray, global ShadowLight* light) {
     const bool wanted = gathered->has_shadow && usable(gathered->shadow);
     light->pixel = wanted ? pixel | (indirect ? BOXWOOD_INDIRECT : 0u) : BOXWOOD_NONE;
     if (wanted) {
-        *ray = gathered->shadow_ray;
+        store_ray(&gathered->shadow_ray, ray);
         vstore3(gathered->shadow, 0, light->value);
     } else {
         vstore3((float3)(0.0f), 0, ray->direction);
@@ -128,26 +161,27 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
     const uint begin = slice * length, end = begin + min(length, count - begin);
     uint place = begin;
     for (uint i = begin; i < end; ++i) {
-        PathState state;
+        Path path;
         if (first) {
-            const PathState fresh = {{1.0f, 1.0f, 1.0f}, 0.0f, i, 0, 0.0f, 0.0f};
-            state = fresh;
+            const Path fresh = {(float3)(1.0f), 0.0f, i, 0, 0.0f, 0.0f};
+            path = fresh;
             vstore3((float3)(0.0f), i, direct);
             vstore3((float3)(0.0f), i, indirect);
         } else {
-            state = states[i];
+            load_path(states + i, &path);
         }
-        Ray ray = rays[i];
-        const uint bounces = state.counts & 0xffffu;
+        PathRay ray;
+        load_ray(rays + i, &ray);
+        const uint bounces = path.counts & 0xffffu;
         Gathered gathered;
-        const bool goes_on = follow(&world, &settings, camera, hits[i], &state, &ray, &gathered);
-        add_light(gathered.light, (bounces <= 1 ? direct : indirect) + 3 * (size_t)state.pixel);
+        const bool goes_on = follow(&world, &settings, camera, hits[i], &path, &ray, &gathered);
+        add_light(gathered.light, (bounces <= 1 ? direct : indirect) + 3 * (size_t)path.pixel);
 #if NEXT_EVENT
-        store_shadow(&gathered, state.pixel, bounces > 0, shadow_rays + i, shadow_lights + i);
+        store_shadow(&gathered, path.pixel, bounces > 0, shadow_rays + i, shadow_lights + i);
 #endif
         if (goes_on) {
-            next_rays[place] = ray;
-            states[place] = state;
+            store_ray(&ray, next_rays + place);
+            store_path(&path, states + place);
             ++place;
         }
     }

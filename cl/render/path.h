@@ -52,6 +52,19 @@ typedef struct PathWorld {
 #endif
 } PathWorld;
 
+/// A Ray and a PathState as vectors: their arrays would be kept in memory.
+typedef struct PathRay {
+    float3 origin, direction;
+    float t_min, t_max;
+} PathRay;
+
+typedef struct Path {
+    float3 throughput;
+    float pdf;
+    uint pixel, counts;
+    float width, spread;
+} Path;
+
 /// Where a path meets a surface: the frame of the shading normal, and the way back in it.
 typedef struct Vertex {
     ShadingPoint point;
@@ -61,18 +74,18 @@ typedef struct Vertex {
     Bsdf bsdf;
 } Vertex;
 
-inline bool usable(float3 c) {
+INLINE bool usable(float3 c) {
     return c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f && c.x < INFINITY && c.y < INFINITY && c.z < INFINITY;
 }
 
 /// Weight of a sample of density `pdf` beside the other strategy's (the power heuristic with exponent 2).
-inline float power_heuristic(float pdf, float other) {
+INLINE float power_heuristic(float pdf, float other) {
     const float ratio = other / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
 /// The beam of a camera's pixel, or of one of its samples, after distance t.
-inline void camera_beam(global const CameraRecord* camera, float3 direction, float t, uint samples, Beam* beam) {
+INLINE void camera_beam(global const CameraRecord* camera, float3 direction, float t, uint samples, Beam* beam) {
     const float along = camera->perspective ? t * dot(direction, vload3(0, camera->forward)) : 1.0f;
     const float scale = 2.0f * along / sqrt((float)samples);
     beam->x = vload3(0, camera->right) * scale;
@@ -80,7 +93,7 @@ inline void camera_beam(global const CameraRecord* camera, float3 direction, flo
 }
 
 /// Tangents of Duff et al. 2017, which need no branch and lose no digits near any pole.
-inline void tangents_of(float3 n, float3* tangent, float3* bitangent) {
+INLINE void tangents_of(float3 n, float3* tangent, float3* bitangent) {
     const float sign = copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
@@ -88,22 +101,22 @@ inline void tangents_of(float3 n, float3* tangent, float3* bitangent) {
     *bitangent = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
-inline float3 into_frame(const Vertex* vertex, float3 v) {
+INLINE float3 into_frame(const Vertex* vertex, float3 v) {
     return (float3)(dot(v, vertex->tangent), dot(v, vertex->bitangent), dot(v, vertex->point.normal));
 }
 
-inline float3 out_of_frame(const Vertex* vertex, float3 v) {
+INLINE float3 out_of_frame(const Vertex* vertex, float3 v) {
     return v.x * vertex->tangent + v.y * vertex->bitangent + v.z * vertex->point.normal;
 }
 
 /// The beam of a cone of `width`.
-inline void cone_beam(float3 direction, float width, Beam* beam) {
+INLINE void cone_beam(float3 direction, float width, Beam* beam) {
     tangents_of(direction, &beam->x, &beam->y);
     beam->x *= width;
     beam->y *= width;
 }
 
-inline void make_vertex(float3 direction, Vertex* vertex) {
+INLINE void make_vertex(float3 direction, Vertex* vertex) {
     const ShadingPoint* point = &vertex->point;
     tangents_of(point->normal, &vertex->tangent, &vertex->bitangent);
     vertex->origin = surface_origin(point->surface);
@@ -112,17 +125,19 @@ inline void make_vertex(float3 direction, Vertex* vertex) {
 }
 
 /// Radiance that comes along a ray which met nothing, by its share among the strategies.
-inline float3 sky_light(const PathWorld* world, float3 direction, bool first, float pdf) {
+INLINE float3 sky_light(const PathWorld* world, float3 direction, bool first, float pdf) {
 #if ENVIRONMENT
-    float weight = 1.0f;
-#if STRATEGY == 0
-    if (!first) weight = power_heuristic(pdf, ENVIRONMENT_SHARE * environment_pdf(&world->environment, direction));
-#elif STRATEGY == 1
+#if STRATEGY == 1
     if (!first) return (float3)(0.0f);
 #endif
-    (void)first;
+    float other;
+    const float3 radiance = environment_radiance(&world->environment, direction, &other);
     (void)pdf;
-    return weight * environment_radiance(&world->environment, direction);
+    (void)first;
+#if STRATEGY == 0
+    if (!first) return power_heuristic(pdf, ENVIRONMENT_SHARE * other) * radiance;
+#endif
+    return radiance;
 #else
     (void)world;
     (void)direction;
@@ -133,7 +148,7 @@ inline float3 sky_light(const PathWorld* world, float3 direction, bool first, fl
 }
 
 /// Radiance that a surface sends back along a ray, by its share among the strategies.
-inline float3 surface_light(const PathWorld* world, const ShadingPoint* point, float3 direction, Hit hit, bool first,
+INLINE float3 surface_light(const PathWorld* world, const ShadingPoint* point, float3 direction, Hit hit, bool first,
                             float pdf) {
     if (point->flags & BOXWOOD_UNLIT) return point->base_color;
     float3 light = point->emission;
@@ -156,9 +171,23 @@ inline float3 surface_light(const PathWorld* world, const ShadingPoint* point, f
     return light;
 }
 
+/// Whether a hit may give light or let it pass: where no bounce is left, nothing else counts.
+INLINE bool may_shine(const SceneArrays* scene, Hit hit) {
+#if MATERIALS
+    const uint triangle = scene->meshes[scene->instances[hit.instance].mesh].first_triangle + hit.primitive;
+    global const MaterialRecord* material = scene->materials + scene->triangle_materials[triangle];
+#else
+    global const MaterialRecord* material = scene->materials;
+    (void)hit;
+#endif
+    const float3 emission = vload3(0, material->emission);
+    return emission.x > 0.0f || emission.y > 0.0f || emission.z > 0.0f ||
+           (material->flags & (BOXWOOD_UNLIT | BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND));
+}
+
 #if NEXT_EVENT
 /// A shadow ray and the light that it stands for; false if there is none.
-inline bool next_event(const PathWorld* world, const Vertex* vertex, float choice, float2 u, Ray* ray, float3* light) {
+INLINE bool next_event(const PathWorld* world, const Vertex* vertex, float choice, float2 u, PathRay* ray, float3* light) {
     LightSample sample;
 #if SAMPLE_ENVIRONMENT
 #if LIGHTS
@@ -168,11 +197,12 @@ inline bool next_event(const PathWorld* world, const Vertex* vertex, float choic
     const bool distant = true;
 #endif
     if (distant) {
-        sample.pdf = ENVIRONMENT_SHARE *
-                     sample_environment(&world->environment, vertex->point.surface.normal, u, &sample.direction);
+        const float3 radiance = sample_environment(&world->environment, vertex->point.surface.normal, u,
+                                                   &sample.direction, &sample.pdf);
+        sample.pdf *= ENVIRONMENT_SHARE;
         sample.segment = sample.direction;
         sample.t_max = INFINITY;
-        sample.value = environment_radiance(&world->environment, sample.direction) / sample.pdf;
+        sample.value = radiance / sample.pdf;
     }
 #if LIGHTS
     else
@@ -192,46 +222,46 @@ inline bool next_event(const PathWorld* world, const Vertex* vertex, float choic
 #if STRATEGY == 0
     if (sample.pdf > 0.0f) *light *= power_heuristic(sample.pdf, pdf);
 #endif
-    vstore3(vertex->origin, 0, ray->origin);
+    ray->origin = vertex->origin;
     ray->t_min = 0.0f;
-    vstore3(sample.segment, 0, ray->direction);
+    ray->direction = sample.segment;
     ray->t_max = sample.t_max;
     return usable(*light) && (light->x > 0.0f || light->y > 0.0f || light->z > 0.0f);
 }
 #endif
 
 /// The next ray of a path, and what it does to its state; false where the path ends. `width` is that of the beam at the vertex.
-inline bool scatter_path(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, uint dimension,
-                         float choice, float width, PathState* state, Ray* ray) {
+INLINE bool scatter_path(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, uint dimension,
+                         float choice, float width, Path* path, PathRay* ray) {
     float3 wi, value;
     float pdf;
     sample_bsdf(&vertex->bsdf, vertex->wo, choice, sample_square(sampler, dimension + SCATTER_DIMENSION), &wi);
     evaluate_bsdf(&vertex->bsdf, vertex->wo, wi, &value, &pdf);
     if (!(pdf > 0.0f)) return false;
-    const float3 direction = normalize_any(out_of_frame(vertex, wi));
+    const float3 turned = out_of_frame(vertex, wi), direction = turned / sqrt(dot(turned, turned));
     if (!(dot(direction, vertex->point.surface.normal) > 0.0f)) return false;
 
-    float3 throughput = vload3(0, state->throughput) * (value / pdf);
+    float3 throughput = path->throughput * (value / pdf);
     const float largest = fmax(fmax(throughput.x, throughput.y), throughput.z);
     if (!(largest > 0.0f) || !usable(throughput)) return false;
-    state->counts += 1;
-    if ((state->counts & 0xffffu) >= ROULETTE_BOUNCE && largest < 1.0f) {
+    path->counts += 1;
+    if ((path->counts & 0xffffu) >= ROULETTE_BOUNCE && largest < 1.0f) {
         if (sample_square(sampler, dimension + ROULETTE_DIMENSION).x >= largest) return false;
         throughput /= largest;
     }
-    vstore3(throughput, 0, state->throughput);
-    state->pdf = pdf;
+    path->throughput = throughput;
+    path->pdf = pdf;
 #if TEXTURES
     // One of so many samples stands for this solid angle; a radian at most.
-    state->width = width;
-    state->spread = fmax(state->spread, fmin(1.0f / sqrt((float)settings->samples * pdf), 1.0f));
+    path->width = width;
+    path->spread = fmax(path->spread, fmin(1.0f / sqrt((float)settings->samples * pdf), 1.0f));
 #else
     (void)width;
     (void)settings;
 #endif
-    vstore3(vertex->origin, 0, ray->origin);
+    ray->origin = vertex->origin;
     ray->t_min = 0.0f;
-    vstore3(direction, 0, ray->direction);
+    ray->direction = direction;
     ray->t_max = INFINITY;
     return true;
 }

@@ -22,9 +22,9 @@ typedef struct Sampler {
 } Sampler;
 
 /// Uniform in [0, 1), from the top 24 bits.
-inline float unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
+INLINE float unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
 
-inline uint reverse_bits(uint x) {
+INLINE uint reverse_bits(uint x) {
     x = (x >> 16) | (x << 16);
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
     x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
@@ -34,7 +34,7 @@ inline uint reverse_bits(uint x) {
 
 /// A permutation of 32 bits in which a bit depends on itself and on lower ones alone: Owen's scrambling of digits that are
 /// given last one first, by the hash of Laine and Karras 2011 with the constants of Vegdahl.
-inline uint scramble_reversed(uint x, uint seed) {
+INLINE uint scramble_reversed(uint x, uint seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -45,7 +45,7 @@ inline uint scramble_reversed(uint x, uint seed) {
 
 /// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is the sum of
 /// the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a sum over supersets.
-inline uint sobol_second(uint index) {
+INLINE uint sobol_second(uint index) {
     index ^= (index >> 1) & 0x55555555u;
     index ^= (index >> 2) & 0x33333333u;
     index ^= (index >> 4) & 0x0f0f0f0fu;
@@ -55,7 +55,7 @@ inline uint sobol_second(uint index) {
 
 /// The place of `index` in a permutation of [0, count) chosen by `seed` (Kensler 2013: rounds of a bijection on the next power
 /// of two, again while outside).
-inline uint permute(uint index, uint count, uint seed) {
+INLINE uint permute(uint index, uint count, uint seed) {
     uint mask = count - 1;
     mask |= mask >> 1;
     mask |= mask >> 2;
@@ -75,13 +75,13 @@ inline uint permute(uint index, uint count, uint seed) {
 }
 
 /// floor(sqrt(x)), x < 2^22: whatever the last digits of the device's root are.
-inline uint floor_root(uint x) {
+INLINE uint floor_root(uint x) {
     const uint root = (uint)(sqrt((float)x) + 0.5f);
     return root * root > x ? root - 1 : root;
 }
 
 /// A point in [0, 1)^2 for the integral number `dimension` of the sample.
-inline float2 sample_square(const Sampler* sampler, uint dimension) {
+INLINE float2 sample_square(const Sampler* sampler, uint dimension) {
 #if SAMPLER == 0
     const ulong bits = random_bits(sampler->key, sampler->sample * 0x10000u + dimension);
     return (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));

@@ -2,17 +2,18 @@
 // Choosing one of many by chance.
 #ifndef BOXWOOD_RENDER_SEARCH_H
 #define BOXWOOD_RENDER_SEARCH_H
+#include "runtime/inline.h"
+
 
 /// Chooses one of `count` > 0 elements: element i with the probability distribution[i + 1] - distribution[i], where the `count` + 1
 /// values ascend from 0 to 1. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(log count).
-inline uint choose(global const float* distribution, uint count, float* u, float* probability) {
-    uint low = 0, high = count;
-    while (high - low > 1) {
-        const uint middle = low + (high - low) / 2;
-        if (distribution[middle] <= *u)
-            low = middle;
-        else
-            high = middle;
+INLINE uint choose(global const float* distribution, uint count, float* u, float* probability) {
+    uint low = 0;
+    for (uint left = count; left > 1;) {
+        // Which way it goes cannot be foreseen: no branch.
+        const uint step = left >> 1;
+        low += select(0u, step, (uint)(distribution[low + step] <= *u));
+        left -= step;
     }
     // With 0 and 1 at the ends and u below 1, low is an element of a probability that is not 0.
     const float first = distribution[low];

@@ -41,16 +41,16 @@ typedef struct Place {
 #endif
 } Place;
 
-inline float3 rotate_rows(global const float* rows, float3 v) {
+INLINE float3 rotate_rows(global const float* rows, float3 v) {
     return (float3)(dot(vload3(0, rows), v), dot(vload3(0, rows + 4), v), dot(vload3(0, rows + 8), v));
 }
 
 /// rows^T v: to_object's take normals to world space.
-inline float3 rotate_columns(global const float* rows, float3 v) {
+INLINE float3 rotate_columns(global const float* rows, float3 v) {
     return v.x * vload3(0, rows) + v.y * vload3(0, rows + 4) + v.z * vload3(0, rows + 8);
 }
 
-inline void place_of(const SceneArrays* scene, Hit hit, Place* place) {
+INLINE void place_of(const SceneArrays* scene, Hit hit, Place* place) {
     const uint triangle = scene->meshes[scene->instances[hit.instance].mesh].first_triangle + hit.primitive;
     place->corner = vload3(triangle, scene->triangles);
     place->weight = (float3)(1.0f - hit.u - hit.v, hit.u, hit.v);
@@ -63,7 +63,7 @@ inline void place_of(const SceneArrays* scene, Hit hit, Place* place) {
 
 #if UV_SETS
 /// How the weights change along `v`, a vector in world space: by its projection along the ray's direction onto the triangle.
-inline float2 weight_change(float3 edge1, float3 edge2, float3 normal, float3 direction, float3 v) {
+INLINE float2 weight_change(float3 edge1, float3 edge2, float3 normal, float3 direction, float3 v) {
     const float facing = dot(normal, direction);
     const float3 on_plane = v - direction * (dot(normal, v) / facing);
     const float square = dot(normal, normal);
@@ -72,7 +72,7 @@ inline float2 weight_change(float3 edge1, float3 edge2, float3 normal, float3 di
     return (isfinite(change.x) && isfinite(change.y)) ? change : (float2)(0.0f);
 }
 
-inline void place_beam(const SceneArrays* scene, Ray ray, Hit hit, Beam beam, Place* place) {
+INLINE void place_beam(const SceneArrays* scene, float3 along, Hit hit, Beam beam, Place* place) {
     global const float* rows = scene->instances[hit.instance].to_object;
     const float3 v0 = vload3(place->corner.x, scene->positions);
     const float3 edge1 = vload3(place->corner.y, scene->positions) - v0;
@@ -82,21 +82,21 @@ inline void place_beam(const SceneArrays* scene, Ray ray, Hit hit, Beam beam, Pl
                                fmax(fabs(edge2.y), fabs(edge2.z)));
     const float scale = largest > 0.0f ? 1.0f / largest : 0.0f;
     const float3 normal = cross(edge1 * scale, edge2 * scale);
-    const float3 direction = normalize_any(rotate_rows(rows, vload3(0, ray.direction)));
+    const float3 direction = normalize_any(rotate_rows(rows, along));
     place->weight_x = weight_change(edge1 * scale, edge2 * scale, normal, direction, rotate_rows(rows, beam.x) * scale);
     place->weight_y = weight_change(edge1 * scale, edge2 * scale, normal, direction, rotate_rows(rows, beam.y) * scale);
 }
 
-inline float2 vertex_uv(const SceneArrays* scene, uint vertex, uint set) {
+INLINE float2 vertex_uv(const SceneArrays* scene, uint vertex, uint set) {
     return vload2(0, scene->attributes + (ulong)vertex * VERTEX_FLOATS + UV_AT + 2 * set);
 }
 #endif
 
-inline float3 vertex_vector(const SceneArrays* scene, uint vertex, uint at) {
+INLINE float3 vertex_vector(const SceneArrays* scene, uint vertex, uint at) {
     return vload3(0, scene->attributes + (ulong)vertex * VERTEX_FLOATS + at);
 }
 
-inline float3 interpolate_vector(const SceneArrays* scene, const Place* place, uint at) {
+INLINE float3 interpolate_vector(const SceneArrays* scene, const Place* place, uint at) {
     return place->weight.x * vertex_vector(scene, place->corner.x, at) +
            place->weight.y * vertex_vector(scene, place->corner.y, at) +
            place->weight.z * vertex_vector(scene, place->corner.z, at);
@@ -104,7 +104,7 @@ inline float3 interpolate_vector(const SceneArrays* scene, const Place* place, u
 
 #if TEXTURES
 /// The texture of an input at the place, (1, 1, 1, 1) without one.
-inline float4 texture_at(const SceneArrays* scene, const Place* place, global const TextureInput* input) {
+INLINE float4 texture_at(const SceneArrays* scene, const Place* place, global const TextureInput* input) {
     if (input->texture == BOXWOOD_NONE) return (float4)(1.0f);
     const float2 uv0 = vertex_uv(scene, place->corner.x, input->uv_set);
     const float2 edge1 = vertex_uv(scene, place->corner.y, input->uv_set) - uv0;
@@ -121,7 +121,7 @@ inline float4 texture_at(const SceneArrays* scene, const Place* place, global co
 #endif
 
 /// Base colour with alpha, before the alpha mode.
-inline float4 color_at(const SceneArrays* scene, const Place* place) {
+INLINE float4 color_at(const SceneArrays* scene, const Place* place) {
     global const MaterialRecord* material = scene->materials + place->material;
     float4 color = vload4(0, material->base_color);
 #if TEXTURES
@@ -137,7 +137,7 @@ inline float4 color_at(const SceneArrays* scene, const Place* place) {
 }
 
 /// What the alpha mode makes of an alpha.
-inline float stopped_share(global const MaterialRecord* material, float alpha) {
+INLINE float stopped_share(global const MaterialRecord* material, float alpha) {
     if (material->flags & BOXWOOD_ALPHA_BLEND) return alpha;
     if (material->flags & BOXWOOD_ALPHA_MASK) return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
     return 1.0f;
@@ -145,7 +145,7 @@ inline float stopped_share(global const MaterialRecord* material, float alpha) {
 
 #if NORMALS
 /// Normal of the triangle in object space, for vertices without any.
-inline float3 object_normal(const SceneArrays* scene, const Place* place) {
+INLINE float3 object_normal(const SceneArrays* scene, const Place* place) {
     const float3 v0 = vload3(place->corner.x, scene->positions);
     return normalize_any(cross(scaled_by_largest(vload3(place->corner.y, scene->positions) - v0),
                                scaled_by_largest(vload3(place->corner.z, scene->positions) - v0)));
@@ -154,7 +154,7 @@ inline float3 object_normal(const SceneArrays* scene, const Place* place) {
 
 /// The normal for shading, from vertices and normal texture, in world space and normalised, or that of the triangle where those
 /// are zero. `view` goes along the ray.
-inline float3 shading_normal(const SceneArrays* scene, const Place* place, Hit hit, Surface surface, float3 view) {
+INLINE float3 shading_normal(const SceneArrays* scene, const Place* place, Hit hit, Surface surface, float3 view) {
     float3 normal = surface.normal;
 #if NORMALS
     global const InstanceRecord* instance = scene->instances + hit.instance;
@@ -187,18 +187,18 @@ inline float3 shading_normal(const SceneArrays* scene, const Place* place, Hit h
     return facing < grazing ? normalize_any(normal - view * (grazing - facing)) : normal;
 }
 
-/// The surface and its material where `ray` met it; `hit` is not a miss.
-inline void shading_point(const SceneArrays* scene, Ray ray, Hit hit, Beam beam, ShadingPoint* point) {
+/// The surface and its material where a ray along `direction`, which is normalised, met it; `hit` is not a miss.
+INLINE void find_shading_point(const SceneArrays* scene, float3 direction, Hit hit, Beam beam, ShadingPoint* point) {
     Place place;
     place_of(scene, hit, &place);
 #if UV_SETS
-    place_beam(scene, ray, hit, beam, &place);
+    place_beam(scene, direction, hit, beam, &place);
 #else
     (void)beam;
 #endif
     global const MaterialRecord* material = scene->materials + place.material;
-    point->surface = surface_at(scene->positions, scene->triangles, scene->meshes, scene->instances, ray, hit);
-    point->normal = shading_normal(scene, &place, hit, point->surface, normalize_any(vload3(0, ray.direction)));
+    find_surface(scene->positions, scene->triangles, scene->meshes, scene->instances, direction, hit, &point->surface);
+    point->normal = shading_normal(scene, &place, hit, point->surface, direction);
     point->material = place.material;
     point->flags = material->flags;
     const float4 color = color_at(scene, &place);
@@ -218,6 +218,10 @@ inline void shading_point(const SceneArrays* scene, Ray ray, Hit hit, Beam beam,
     point->occlusion = 1.0f + material->occlusion_strength * (occlusion - 1.0f);
 #endif
     if (!point->surface.front && !(material->flags & BOXWOOD_DOUBLE_SIDED)) point->emission = (float3)(0.0f);
+}
+
+INLINE void shading_point(const SceneArrays* scene, Ray ray, Hit hit, Beam beam, ShadingPoint* point) {
+    find_shading_point(scene, normalize_any(vload3(0, ray.direction)), hit, beam, point);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // The surface at a hit: point, normal, and how far a new ray must start from it.
 #ifndef BOXWOOD_RENDER_SURFACE_H
 #define BOXWOOD_RENDER_SURFACE_H
+#include "runtime/inline.h"
 #include "runtime/numerics.h"
 #include "shared/instance.h"
 #include "shared/ray.h"
@@ -14,30 +15,30 @@ typedef struct Surface {
     float clearance; ///< Distance along the normal that carries an origin off the triangle (see surface_clearance).
 } Surface;
 
-inline float3 scaled_by_largest(float3 v) {
+INLINE float3 scaled_by_largest(float3 v) {
     const float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
     return largest > 0.0f ? v / largest : v;
 }
 
 /// v normalised for any magnitude: squares are taken of numbers with a largest component of 1. Zero stays zero.
-inline float3 normalize_any(float3 v) {
+INLINE float3 normalize_any(float3 v) {
     const float3 scaled = scaled_by_largest(v);
     const float square = dot(scaled, scaled);
     return square > 0.0f ? scaled / sqrt(square) : scaled;
 }
 
 /// rows (3 x 4, affine) applied to a point; with absolute values, to a bound of the magnitudes that meet in it.
-inline float3 transform_point(global const float* rows, float3 p) {
+INLINE float3 transform_point(global const float* rows, float3 p) {
     return (float3)(dot(vload3(0, rows), p) + rows[3], dot(vload3(0, rows + 4), p) + rows[7],
                     dot(vload3(0, rows + 8), p) + rows[11]);
 }
 
-inline float3 bound_vector(global const float* rows, float3 magnitude) {
+INLINE float3 bound_vector(global const float* rows, float3 magnitude) {
     return (float3)(dot(fabs(vload3(0, rows)), magnitude), dot(fabs(vload3(0, rows + 4)), magnitude),
                     dot(fabs(vload3(0, rows + 8)), magnitude));
 }
 
-inline float3 bound_point(global const float* rows, float3 magnitude) {
+INLINE float3 bound_point(global const float* rows, float3 magnitude) {
     return bound_vector(rows, magnitude) + fabs((float3)(rows[3], rows[7], rows[11]));
 }
 
@@ -53,16 +54,16 @@ inline float3 bound_point(global const float* rows, float3 magnitude) {
 ///     8 u W    vertices and edges rounded after flattening,
 /// together 32 u W + 5 u B. Slivers pass this: their triple product loses digits in proportion to how thin they are.
 /// Scales with the scene.
-inline float surface_clearance(global const InstanceRecord* instance, float3 largest, float3 normal) {
+INLINE float surface_clearance(global const InstanceRecord* instance, float3 largest, float3 normal) {
     const float3 world = bound_point(instance->to_world, largest);
     const float3 back = bound_vector(instance->to_world, bound_point(instance->to_object, world));
     return 0x1p-24f * dot(fabs(normal), 32.0f * world + 5.0f * back);
 }
 
-/// The surface that `ray` met at `hit` (not a miss). `positions`, `triangles`, `meshes` and `instances` are those of a
-/// Geometry and `hit` names a triangle and an instance of it.
-inline Surface surface_at(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-                          global const InstanceRecord* instances, Ray ray, Hit hit) {
+/// The surface that a ray along `direction` met at `hit` (not a miss). `positions`, `triangles`, `meshes` and `instances` are
+/// those of a Geometry and `hit` names a triangle and an instance of it.
+INLINE void find_surface(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                         global const InstanceRecord* instances, float3 direction, Hit hit, Surface* surface) {
     global const InstanceRecord* instance = instances + hit.instance;
     const uint3 corner = vload3(meshes[instance->mesh].first_triangle + hit.primitive, triangles);
     const float3 v0 = vload3(corner.x, positions);
@@ -76,17 +77,22 @@ inline Surface surface_at(global const float* positions, global const uint* tria
     global const float* rows = instance->to_object;
     const float3 normal =
         normalize_any(n.x * vload3(0, rows) + n.y * vload3(0, rows + 4) + n.z * vload3(0, rows + 8));
-    const float side = dot(normal, normalize_any(vload3(0, ray.direction)));
+    const float side = dot(normal, direction);
 
+    surface->point = transform_point(instance->to_world, v0 + (hit.u * edge1 + hit.v * edge2));
+    surface->normal = side > 0.0f ? -normal : normal;
+    surface->front = !(side > 0.0f);
+    surface->clearance = surface_clearance(instance, fmax(fmax(fabs(v0), fabs(v1)), fabs(v2)), normal);
+}
+
+inline Surface surface_at(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                          global const InstanceRecord* instances, Ray ray, Hit hit) {
     Surface surface;
-    surface.point = transform_point(instance->to_world, v0 + (hit.u * edge1 + hit.v * edge2));
-    surface.normal = side > 0.0f ? -normal : normal;
-    surface.front = !(side > 0.0f);
-    surface.clearance = surface_clearance(instance, fmax(fmax(fabs(v0), fabs(v1)), fabs(v2)), normal);
+    find_surface(positions, triangles, meshes, instances, vload3(0, ray.direction), hit, &surface);
     return surface;
 }
 
 /// The origin of a new ray on the normal's side of the surface.
-inline float3 surface_origin(Surface surface) { return surface.point + surface.clearance * surface.normal; }
+INLINE float3 surface_origin(Surface surface) { return surface.point + surface.clearance * surface.normal; }
 
 #endif

@@ -26,7 +26,7 @@ typedef struct LightRecord {
     uint instance;  ///< Triangle: index into Scene::instances.
     uint primitive; ///< Triangle: index within its mesh.
     uint two_sided; ///< Triangle.
-    uint reserved;
+    float clearance; ///< Triangle: what takes a point clear of it (render/surface.h: surface_clearance).
 } LightRecord;
 BOXWOOD_SHARED_SIZE(LightRecord, 96)
 

@@ -19,6 +19,18 @@ void store(const glm::dvec3& v, float (&target)[3]) {
     for (int axis = 0; axis < 3; ++axis) target[axis] = static_cast<float>(v[axis]);
 }
 
+glm::dmat3 absolute(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
+
+/// surface_clearance of cl/render/surface.h. `largest`: magnitudes of a triangle's vertices in object space; `normal`: its
+/// unit normal in world space.
+double clearance(const glm::dmat4& to_world, const glm::dvec3& largest, const glm::dvec3& normal) {
+    const glm::dmat4 to_object = glm::inverse(to_world);
+    const glm::dmat3 there = absolute(glm::dmat3(to_world)), back = absolute(glm::dmat3(to_object));
+    const glm::dvec3 world = there * largest + glm::abs(glm::dvec3(to_world[3]));
+    const glm::dvec3 returned = there * (back * world + glm::abs(glm::dvec3(to_object[3])));
+    return 0x1p-24 * glm::dot(glm::abs(normal), 32.0 * world + 5.0 * returned);
+}
+
 double mean(const glm::dvec3& color) { return (color.x + color.y + color.z) / 3.0; }
 
 /// The power of each light beside its record.
@@ -125,6 +137,8 @@ private:
         store(along[1], record.edges[1]);
         record.range = std::numeric_limits<float>::infinity();
         record.area = static_cast<float>(area);
+        const glm::dvec3 largest = glm::max(glm::abs(vertex[0]), glm::max(glm::abs(vertex[1]), glm::abs(vertex[2])));
+        record.clearance = static_cast<float>(clearance(to_world, largest, normal / length));
         record.instance = instance;
         record.primitive = triangle;
         record.two_sided = material.double_sided ? 1u : 0u;
