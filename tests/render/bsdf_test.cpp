@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "path_scenes.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
 
@@ -95,27 +96,6 @@ std::vector<glm::vec3> hemisphere_grid(int across) {
             directions.emplace_back(r * std::cos(phi), r * std::sin(phi), z);
         }
     return directions;
-}
-
-/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing and no Fresnel loss (Heitz 2014), by the
-/// midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
-/// which takes the integrand's pole at p = 1 away.
-double ggx_albedo(double cosine, double alpha, int across) {
-    const glm::dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
-    const auto shadow = [&](const glm::dvec3& w) {
-        return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (w.z * w.z) - 1)) - 1);
-    };
-    double sum = 0.0;
-    for (int j = 0; j < across; ++j)
-        for (int k = 0; k < across; ++k) {
-            const double q = (j + 0.5) / across, phi = 2 * pi * (k + 0.5) / across;
-            const double tangent = alpha * std::sqrt(1 - q * q) / q;
-            const glm::dvec3 h = glm::normalize(glm::dvec3(tangent * std::cos(phi), tangent * std::sin(phi), 1.0));
-            const double facing = glm::dot(o, h);
-            const glm::dvec3 i = 2 * facing * h - o;
-            if (facing > 0 && i.z > 0) sum += 2 * q * facing / (o.z * h.z) / (1 + shadow(o) + shadow(i));
-        }
-    return sum / (double(across) * across);
 }
 
 const std::array<Programs, 4> all_programs = {Programs{true, false}, {true, true}, {false, false}, {false, true}};

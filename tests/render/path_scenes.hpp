@@ -90,6 +90,27 @@ inline glm::dvec3 reference_bsdf(const Material& m, const glm::dvec3& n, const g
     return cos_i * glm::mix(plastic, metallic, double(m.metallic));
 }
 
+/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing and no Fresnel loss (Heitz 2014), by the
+/// midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
+/// which takes the integrand's pole at p = 1 away.
+inline double ggx_albedo(double cosine, double alpha, int across) {
+    const glm::dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const auto shadow = [&](const glm::dvec3& w) {
+        return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (w.z * w.z) - 1)) - 1);
+    };
+    double sum = 0.0;
+    for (int j = 0; j < across; ++j)
+        for (int k = 0; k < across; ++k) {
+            const double q = (j + 0.5) / across, phi = 2 * std::numbers::pi * (k + 0.5) / across;
+            const double tangent = alpha * std::sqrt(1 - q * q) / q;
+            const glm::dvec3 h = glm::normalize(glm::dvec3(tangent * std::cos(phi), tangent * std::sin(phi), 1.0));
+            const double facing = glm::dot(o, h);
+            const glm::dvec3 i = 2 * facing * h - o;
+            if (facing > 0 && i.z > 0) sum += 2 * q * facing / (o.z * h.z) / (1 + shadow(o) + shadow(i));
+        }
+    return sum / (double(across) * across);
+}
+
 /// A sphere of latitudes and longitudes, with or without vertex normals.
 inline Mesh sphere_mesh(std::uint32_t across, bool smooth) {
     Mesh mesh{"sphere", {}, {}};

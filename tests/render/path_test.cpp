@@ -176,6 +176,28 @@ TEST_CASE("path: a white sphere in a white world cannot be seen") {
         }
 }
 
+TEST_CASE("path: white metal in a white world loses what single scattering loses") {
+    Environment white;
+    white.radiance = glm::vec3(1.0f);
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+        for (const double cosine : {0.9, 0.3}) {
+            CAPTURE(roughness);
+            CAPTURE(cosine);
+            Scene scene;
+            add_floor(scene, metal(glm::vec3(1.0f), roughness));
+            const LitScene lit(test_device(), scene, white);
+            const glm::dvec3 eye(3 * std::sqrt(1 - cosine * cosine), 3 * cosine, 0);
+            const Camera camera{"camera", look_at(eye, {0, 0, 0}), false, 0.8f, 0.5f};
+            LightOptions options;
+            options.samples = small_sizes() ? 4 : 16;
+            options.seed = test_seed();
+            const Estimate found = estimate(test_device(), lit, camera, {24, 24}, options, 6);
+            const double expected = ggx_albedo(cosine, std::max(std::pow(double(roughness), 2), 0x1p-13), 256);
+            CHECK(std::abs(found.mean - expected) < 3 * found.error + (small_sizes() ? 0.1 : 2e-3));
+            CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
+        }
+}
+
 TEST_CASE("path: a closed white room returns what its lamp gives, bounce by bounce") {
     // Inside a sphere whose wall emits 1 and reflects a half, light after n bounces is the sum of 2^-k, k = 0 .. n.
     Scene scene;
