@@ -161,6 +161,8 @@ INLINE float3 shading_normal(const SceneArrays* scene, const Place* place, Hit h
     const float3 interpolated = normalize_any(interpolate_vector(scene, place, NORMAL_AT));
     const float3 object = dot(interpolated, interpolated) > 0.0f ? interpolated : object_normal(scene, place);
     float3 bent = rotate_columns(instance->to_object, object);
+    // By the surface itself: a normal texture may bend the normal past the triangle's plane.
+    const bool turned = dot(bent, surface.normal) < 0.0f;
 #if TANGENTS
     global const MaterialRecord* material = scene->materials + place->material;
     const float3 tangent = normalize_any(interpolate_vector(scene, place, TANGENT_AT));
@@ -176,7 +178,7 @@ INLINE float3 shading_normal(const SceneArrays* scene, const Place* place, Hit h
     }
 #endif
     bent = normalize_any(bent);
-    if (dot(bent, bent) > 0.0f) normal = dot(bent, surface.normal) < 0.0f ? -bent : bent;
+    if (dot(bent, bent) > 0.0f) normal = turned ? -bent : bent;
 #else
     (void)scene;
     (void)place;
