@@ -127,7 +127,7 @@ Result render_pictures(Device& device, const Arguments& arguments, const RenderO
     result.profile = device.take_profile();
     progress.step("writing " + arguments.output.string());
     Image image = render.image();
-    image.attributes["scene"] = arguments.input.filename().string();
+    image.attributes["scene"] = arguments.input.stem().string();
     result.rejected = render.rejected_samples();
     result.report = {{"image", arguments.output.string()},
                      {"preview", arguments.preview().string()},
@@ -200,7 +200,9 @@ void run(const Arguments& arguments) {
     }
     const Result result = render_pictures(device, arguments, options, render, progress);
 
-    Json report = base_report(device, input, prepared, {});
+    const bool statistics = std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end();
+    Json report = base_report(device, input, prepared,
+                              statistics ? std::vector<std::string>{"statistics"} : std::vector<std::string>{});
     for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
     report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;

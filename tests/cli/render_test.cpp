@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// boxwood render as a user runs it: options of light, checkpoints, interruption.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "boxwood/image.hpp"
+#include "cli/tool.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("cli");
+
+namespace {
+
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+void check_failure(const Run& run, int code, const std::string& word) {
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    CHECK(run.err.starts_with("boxwood: "));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.err.find(word) != std::string::npos);
+    CHECK(run.out.empty());
+}
+
+void make_scenes(const Tool& tool) {
+    tool.succeed("scene cornell -o room.glb");
+    tool.succeed("scene forest --instances 20 -o forest.glb");
+}
+
+/// Shell code that ends the tool, which takes the shell's place, once its first checkpoint is there; given up after a while.
+const std::string end_after_checkpoint =
+    "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; kill -TERM $$) &";
+
+// Small: what is tested is not the light. Many samples: it must not end before it is ended.
+const std::string picture =
+    "render room.glb -o x.exr --resolution 12x8 --spp 400 --depth 2 --quiet --aov variance,samples ";
+
+} // namespace
+
+TEST_CASE("render tool: options of light that are wrong are code 2 and say what is right") {
+    const Tool tool;
+    make_scenes(tool);
+    const std::string render = "render room.glb -o x.exr ";
+    check_failure(tool.run(render + "--integrator bdpt"), 2, "path, direct, ambient, ao, normals, cost");
+    check_failure(tool.run(render + "--primary tubes"), 2, "rays, raster");
+    check_failure(tool.run(render + "--sampler halton"), 2, "sobol, stratified, random");
+    check_failure(tool.run(render + "--strategy luck"), 2, "mis, lights, bsdf");
+    check_failure(tool.run(render + "--hemisphere flat"), 2, "cosine, uniform");
+    check_failure(tool.run(render + "--filter box"), 2, "anisotropic, trilinear, nearest");
+    check_failure(tool.run(render + "--spp 0"), 2, "--spp");
+    check_failure(tool.run(render + "--depth 65"), 2, "--depth");
+    check_failure(tool.run(render + "--exposure bright"), 2, "--exposure");
+    check_failure(tool.run(render + "--ao-distance 0"), 2, "--ao-distance");
+    check_failure(tool.run(render + "--checkpoint -1"), 2, "--checkpoint");
+    check_failure(tool.run(render + "--integrator normals --aov indirect"), 2, "normals");
+    for (const std::string light : {"dawn", "1,2", "1,2,3,4", "1,-1,1", "1,nan,1", "sky.png"}) {
+        CAPTURE(light);
+        check_failure(tool.run(render + "--environment " + light), 2, "R,G,B");
+    }
+    check_failure(tool.run(render + "--environment dawn.exr"), 3, "dawn.exr");
+    check_failure(tool.run(render + "--resume"), 3, "x.exr.resume");
+    check_failure(tool.run(render + "--resolution 65536x65536"), 1, "pixels of a picture");
+    CHECK(tool.files() == Names{"forest.glb", "room.glb"});
+}
+
+TEST_CASE("render tool: every integrator makes its picture, the same bytes each time, and names no folder") {
+    const Tool tool;
+    make_scenes(tool);
+    for (const std::string integrator : {"path", "direct", "normals", "cost"}) {
+        CAPTURE(integrator);
+        const std::string rest = " --resolution 24x16 --spp 2 --aov all --integrator " + integrator;
+        tool.succeed("render forest.glb -o a.exr --report a.json" + rest);
+        tool.succeed("render '" + tool.file("forest.glb").string() + "' -o b.exr" + rest);
+        CHECK(tool.contents("a.exr") == tool.contents("b.exr"));
+        CHECK(tool.contents("a.png") == tool.contents("b.png"));
+        CHECK(tool.contents("a.exr").find(tool.folder().string()) == std::string::npos);
+        CHECK(tool.contents("a.exr").find("forest") != std::string::npos);
+        const Json report = Json::parse(tool.contents("a.json"));
+        CHECK(report["options"]["integrator"] == integrator);
+        CHECK(report["render"]["rejected_samples"] == 0);
+    }
+}
+
+TEST_CASE("render tool: the sky lights a scene only when nothing else does, and is named in the summary") {
+    const Tool tool;
+    tool.succeed("scene sphere -o sphere.glb");
+    const std::string render = "render sphere.glb -o x.exr --resolution 16x16 --spp 2 ";
+    CHECK(tool.succeed(render).out.find("environment sky (nothing else lights the scene)") != std::string::npos);
+    const std::string sky = tool.contents("x.png");
+    CHECK(tool.succeed(render + "--environment sky").out.find("environment sky;") != std::string::npos);
+    CHECK(tool.contents("x.png") == sky);
+    CHECK(tool.succeed(render + "--environment none").out.find("environment none") != std::string::npos);
+    CHECK(tool.contents("x.png") != sky);
+
+    // One radiance, and a picture that has it everywhere.
+    const std::vector<float> ones(8, 1.0f), halves(8, 0.5f);
+    save_exr(tool.file("light.exr"), {4, 2, {{"R", ones}, {"G", halves}, {"B", halves}}});
+    CHECK(tool.succeed(render + "--environment 1,0.5,0.5").out.find("environment constant") != std::string::npos);
+    tool.succeed(render + "--environment light.exr --report x.json");
+    CHECK(Json::parse(tool.contents("x.json"))["options"]["environment"] == "light.exr");
+}
+
+TEST_CASE("render tool: exposure changes the preview alone") {
+    const Tool tool;
+    make_scenes(tool);
+    const std::string render = "render forest.glb --resolution 16x16 --spp 1 ";
+    tool.succeed(render + "-o a.exr");
+    tool.succeed(render + "-o b.exr --exposure 1.5");
+    CHECK(tool.contents("a.exr") == tool.contents("b.exr"));
+    CHECK(tool.contents("a.png") != tool.contents("b.png"));
+}
+
+TEST_CASE("render tool: a render that is ended leaves picture and checkpoint, and goes on to the same bytes") {
+    const Tool tool;
+    make_scenes(tool);
+    tool.succeed(picture);
+    const std::string unbroken = tool.contents("x.exr");
+    std::filesystem::remove(tool.file("x.exr"));
+
+    check_failure(tool.run(picture + "--checkpoint 0 --report x.json", end_after_checkpoint), 130, "--resume");
+    CHECK(tool.files() == Names{"forest.glb", "room.glb", "x.exr", "x.exr.resume", "x.json", "x.png"});
+    const Json report = Json::parse(tool.contents("x.json"));
+    CHECK(report["render"]["interrupted"] == true);
+    CHECK(report["render"]["samples"] >= 1);
+    CHECK(report["render"]["samples"] < 400);
+    CHECK(tool.contents("x.exr") != unbroken);
+
+    tool.succeed(picture + "--resume --report y.json");
+    CHECK(tool.contents("x.exr") == unbroken);
+    CHECK(Json::parse(tool.contents("y.json"))["render"]["resumed_samples"] == report["render"]["samples"]);
+    CHECK_FALSE(std::filesystem::exists(tool.file("x.exr.resume"))); // of no use any more
+}
+
+TEST_CASE("render tool: a checkpoint that is damaged or of another render is refused, and kept") {
+    const Tool tool;
+    make_scenes(tool);
+    tool.run(picture + "--checkpoint 0", end_after_checkpoint);
+    const std::string checkpoint = tool.contents("x.exr.resume");
+    REQUIRE(checkpoint.size() > 100);
+    const auto refused = [&](const std::string& arguments) {
+        check_failure(tool.run(arguments + " --resume"), 3, "x.exr.resume");
+    };
+    refused(picture + "--seed 2");
+    refused(picture + "--camera 0 --environment 1,1,1");
+    refused("render forest.glb" + picture.substr(picture.find(" -o")));
+    CHECK(tool.contents("x.exr.resume") == checkpoint);
+    std::string damaged = checkpoint;
+    damaged[damaged.size() / 2] ^= 1;
+    for (const std::string& contents : {std::string(), std::string("#!/bin/sh"), checkpoint.substr(0, 60), damaged}) {
+        tool.write("x.exr.resume", contents);
+        refused(picture);
+    }
+}
+
+TEST_SUITE_END();
