@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "boxwood/error.hpp"
 #include "boxwood/gbuffer.hpp"
 #include "render/camera.hpp"
 #include "runtime/launch.hpp"
@@ -44,8 +43,8 @@ SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t
     return buffers;
 }
 
-FilmSample take_sample(Device& device, const World& world, const RenderOptions& options, std::uint32_t sample,
-                       const PixelBatch& pixels, const SampleBuffers& buffers) {
+FilmSample take_sample(Device& device, const World& world, const AmbientLight& around, const RenderOptions& options,
+                       std::uint32_t sample, const PixelBatch& pixels, const SampleBuffers& buffers) {
     const BufferView<Ray> rays = buffers.rays.prefix(pixels.count);
     const BufferView<Hit> hits = buffers.hits.prefix(pixels.count);
     const PrimaryHits primary{pixels.camera, rays, hits, pixels.first_pixel};
@@ -66,8 +65,14 @@ FilmSample take_sample(Device& device, const World& world, const RenderOptions& 
     case Integrator::cost:
         show_cost(device, world, chosen, primary, hits, light(0));
         break;
-    default:
-        throw InputError("render", "integrator", "not yet");
+    case Integrator::ambient:
+        trace_ambient(device, world, around, chosen, options.ao_distance, sample, primary,
+                      {light(0), light(1), light(2), buffers.ao.prefix(pixels.count)});
+        break;
+    case Integrator::ao:
+        trace_occlusion(device, world, chosen, options.ao_distance, sample, primary, light(0),
+                        buffers.ao.prefix(pixels.count));
+        break;
     }
     return {{buffers.lights[0], buffers.lights[1], buffers.lights[2]}, buffers.ao, pixels.first_pixel, pixels.count};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "boxwood/render.hpp"
+#include "render/ambient.hpp"
 #include "render/film.hpp"
 #include "render/path.hpp"
 #include "shared/camera.h"
@@ -26,8 +27,8 @@ struct SampleBuffers {
 
 SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t pixels);
 
-/// Sample number `sample` of some pixels; the views are of `buffers`.
-FilmSample take_sample(Device& device, const World& world, const RenderOptions& options, std::uint32_t sample,
-                       const PixelBatch& pixels, const SampleBuffers& buffers);
+/// Sample number `sample` of some pixels; the views are of `buffers`. `around` is read for Integrator::ambient.
+FilmSample take_sample(Device& device, const World& world, const AmbientLight& around, const RenderOptions& options,
+                       std::uint32_t sample, const PixelBatch& pixels, const SampleBuffers& buffers);
 
 } // namespace boxwood

@@ -102,6 +102,7 @@ struct Render::State {
     std::vector<std::string> warnings;
     Appearance appearance;
     EnvironmentMap environment;
+    AmbientLight ambient; ///< Of Integrator::ambient only.
     mutable std::optional<std::uint64_t> fingerprint;
 
     State(Device& on, const Scene& of, const Tree& built, const Environment& around, const Camera& by,
@@ -110,6 +111,7 @@ struct Render::State {
           aovs(without_repetition(with.aovs)), film(make_film(on, parts, std::size_t{with.width} * with.height)),
           geometry(upload(on, of)), appearance(upload_appearance(on, of, shading_requirements(of), warnings)),
           environment(upload_environment(on, around)) {
+        if (options.light.integrator == Integrator::ambient) ambient = make_ambient_light(on, appearance, around);
         if (options.ao_distance == 0.0f) options.ao_distance = default_ao_distance(scene);
     }
 
@@ -143,8 +145,8 @@ void Render::advance() {
     const SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
     for (std::uint32_t first = 0, count = 0; first < pixels; first += count) {
         count = std::min(most, pixels - first);
-        const FilmSample sample =
-            take_sample(state.device, state.world(), state.options, state.samples, {camera, first, count}, buffers);
+        const FilmSample sample = take_sample(state.device, state.world(), state.ambient, state.options, state.samples,
+                                              {camera, first, count}, buffers);
         add_sample(state.device, state.parts, sample, state.film);
     }
     ++state.samples;

@@ -73,7 +73,7 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
 TEST_CASE("render tool: every integrator makes its picture, the same bytes each time, and names no folder") {
     const Tool tool;
     make_scenes(tool);
-    for (const std::string integrator : {"path", "direct", "normals", "cost"}) {
+    for (const std::string integrator : {"path", "direct", "ambient", "ao", "normals", "cost"}) {
         CAPTURE(integrator);
         const std::string rest = " --resolution 24x16 --spp 2 --aov all --integrator " + integrator;
         tool.succeed("render forest.glb -o a.exr --report a.json" + rest);

@@ -317,7 +317,8 @@ struct Painter {
     Render start() { return Render(device, scene, tree, white(), wide_camera(), options); }
 };
 
-constexpr std::array some_integrators = {Integrator::path, Integrator::direct, Integrator::normals, Integrator::cost};
+constexpr std::array some_integrators = {Integrator::path, Integrator::direct,  Integrator::ambient,
+                                         Integrator::ao,   Integrator::normals, Integrator::cost};
 
 } // namespace
 
