@@ -224,7 +224,7 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
            "(default: sky when nothing else lights the scene, else none)")
         ->type_name("LIGHT");
     app.add_option("--ao-distance", arguments.ao_distance,
-                   "World units at which a surface occludes by e^-1, for ambient and ao (default: a twentieth of the "
+                   "World units at which a surface occludes by e^-1, for ambient and ao (default: a tenth of the "
                    "scene's diagonal)")
         ->check(CLI::PositiveNumber);
     app.add_option("--exposure", arguments.exposure, "Stops by which the preview is brighter (default: 0)")

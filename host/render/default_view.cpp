@@ -85,7 +85,7 @@ glm::vec3 default_light(const Scene& scene) {
 
 float default_ao_distance(const Scene& scene) {
     const auto box = world_box(scene);
-    const double distance = box ? glm::length(box->upper - box->lower) / 20.0 : 0.0;
+    const double distance = box ? glm::length(box->upper - box->lower) / 10.0 : 0.0;
     const auto rounded = static_cast<float>(distance);
     return rounded > 0.0f ? rounded : 1.0f;
 }

@@ -13,6 +13,14 @@ namespace {
 
 std::uint32_t count_of(const PrimaryHits& primary) { return static_cast<std::uint32_t>(primary.hits.size()); }
 
+void find_hits(Device& device, const Scenery& scenery, const RenderOptions& options, const PixelBatch& pixels,
+               BufferView<const Ray> rays, BufferView<Hit> hits) {
+    if (scenery.rasteriser)
+        scenery.rasteriser->draw(pixels.camera, options.width, options.height, pixels.first_pixel, rays, hits);
+    else
+        closest_hit(device, scenery.world.tree, rays, hits, options.light.trace);
+}
+
 void show_normals(Device& device, const World& world, const LightOptions& options, const PrimaryHits& primary,
                   BufferView<float> light) {
     const Slices slices = cut(device, primary.hits.size());
@@ -43,15 +51,16 @@ SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t
     return buffers;
 }
 
-FilmSample take_sample(Device& device, const World& world, const AmbientLight& around, const RenderOptions& options,
-                       std::uint32_t sample, const PixelBatch& pixels, const SampleBuffers& buffers) {
+FilmSample take_sample(Device& device, const Scenery& scenery, const RenderOptions& options, std::uint32_t sample,
+                       const PixelBatch& pixels, const SampleBuffers& buffers) {
+    const World& world = scenery.world;
     const BufferView<Ray> rays = buffers.rays.prefix(pixels.count);
     const BufferView<Hit> hits = buffers.hits.prefix(pixels.count);
     const PrimaryHits primary{pixels.camera, rays, hits, pixels.first_pixel};
     const auto light = [&](std::size_t part) { return buffers.lights[part].prefix(std::size_t{3} * pixels.count); };
     LightOptions chosen = options.light;
     primary_rays(device, pixels.camera, pixels.first_pixel, rays);
-    if (chosen.integrator != Integrator::cost) closest_hit(device, world.tree, rays, hits, chosen.trace);
+    if (chosen.integrator != Integrator::cost) find_hits(device, scenery, options, pixels, rays, hits);
     switch (chosen.integrator) {
     case Integrator::direct:
         chosen.depth = std::min(chosen.depth, 1u);
@@ -66,7 +75,7 @@ FilmSample take_sample(Device& device, const World& world, const AmbientLight& a
         show_cost(device, world, chosen, primary, hits, light(0));
         break;
     case Integrator::ambient:
-        trace_ambient(device, world, around, chosen, options.ao_distance, sample, primary,
+        trace_ambient(device, world, scenery.ambient, chosen, options.ao_distance, sample, primary,
                       {light(0), light(1), light(2), buffers.ao.prefix(pixels.count)});
         break;
     case Integrator::ao:

@@ -2,6 +2,7 @@
 // One sample of a batch of pixels, by each integrator.
 #pragma once
 
+#include "boxwood/raster.hpp"
 #include "boxwood/render.hpp"
 #include "render/ambient.hpp"
 #include "render/film.hpp"
@@ -9,6 +10,13 @@
 #include "shared/camera.h"
 
 namespace boxwood {
+
+/// What samples are made of. Referenced, not owned.
+struct Scenery {
+    World world;
+    const AmbientLight& ambient;  ///< Read for Integrator::ambient.
+    const Rasteriser* rasteriser; ///< Of Primary::raster, else null.
+};
 
 /// Consecutive pixels of a picture and the camera of one sample.
 struct PixelBatch {
@@ -27,8 +35,8 @@ struct SampleBuffers {
 
 SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t pixels);
 
-/// Sample number `sample` of some pixels; the views are of `buffers`. `around` is read for Integrator::ambient.
-FilmSample take_sample(Device& device, const World& world, const AmbientLight& around, const RenderOptions& options,
-                       std::uint32_t sample, const PixelBatch& pixels, const SampleBuffers& buffers);
+/// Sample number `sample` of some pixels; the views are of `buffers`.
+FilmSample take_sample(Device& device, const Scenery& scenery, const RenderOptions& options, std::uint32_t sample,
+                       const PixelBatch& pixels, const SampleBuffers& buffers);
 
 } // namespace boxwood

@@ -102,7 +102,8 @@ struct Render::State {
     std::vector<std::string> warnings;
     Appearance appearance;
     EnvironmentMap environment;
-    AmbientLight ambient; ///< Of Integrator::ambient only.
+    AmbientLight ambient;                 ///< Of Integrator::ambient only.
+    std::optional<Rasteriser> rasteriser; ///< Of Primary::raster only.
     mutable std::optional<std::uint64_t> fingerprint;
 
     State(Device& on, const Scene& of, const Tree& built, const Environment& around, const Camera& by,
@@ -112,6 +113,7 @@ struct Render::State {
           geometry(upload(on, of)), appearance(upload_appearance(on, of, shading_requirements(of), warnings)),
           environment(upload_environment(on, around)) {
         if (options.light.integrator == Integrator::ambient) ambient = make_ambient_light(on, appearance, around);
+        if (options.light.primary == Primary::raster) rasteriser.emplace(on, scene, tree, geometry);
         if (options.ao_distance == 0.0f) options.ao_distance = default_ao_distance(scene);
     }
 
@@ -142,11 +144,12 @@ void Render::advance() {
     const Buffer<CameraRecord> camera =
         upload_camera(state.device, state.camera, state.options.width, state.options.height,
                       camera_jitter(state.options.light, state.samples));
+    const Scenery scenery{state.world(), state.ambient, state.rasteriser ? &*state.rasteriser : nullptr};
     const SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
     for (std::uint32_t first = 0, count = 0; first < pixels; first += count) {
         count = std::min(most, pixels - first);
-        const FilmSample sample = take_sample(state.device, state.world(), state.ambient, state.options, state.samples,
-                                              {camera, first, count}, buffers);
+        const FilmSample sample =
+            take_sample(state.device, scenery, state.options, state.samples, {camera, first, count}, buffers);
         add_sample(state.device, state.parts, sample, state.film);
     }
     ++state.samples;

@@ -42,7 +42,7 @@ Camera default_camera(const Scene& scene);
 /// a room and over most of an object. The origin for an empty scene. O(vertices + instances).
 glm::vec3 default_light(const Scene& scene);
 
-/// A distance for RenderOptions::ao_distance: a twentieth of the diagonal of the scene's bounding box, so that corners and what is
+/// A distance for RenderOptions::ao_distance: a tenth of the diagonal of the scene's bounding box, so that corners and what is
 /// near darken, but not the middle of a room. 1 for an empty scene or one that is a point. O(vertices + instances).
 float default_ao_distance(const Scene& scene);
 
