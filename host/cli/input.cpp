@@ -6,21 +6,8 @@
 
 #include "boxwood/bxw.hpp"
 #include "boxwood/gltf.hpp"
-#include "boxwood/rays.hpp"
 
 namespace boxwood::cli {
-
-namespace {
-
-std::string camera_list(const std::vector<Camera>& cameras) {
-    if (cameras.empty()) return "the file has none; leave --camera out to see everything";
-    std::string list = "the file has ";
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " \"" + cameras[i].name + "\"";
-    return list;
-}
-
-} // namespace
 
 void print_warnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
     constexpr std::size_t most = 5;
@@ -60,14 +47,6 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
     options.levels = input.tree->levels;
     options.bounds.kind = input.tree->bounds;
     return {upload(device, *input.tree), options, std::nullopt};
-}
-
-Camera choose_camera(const Input& input, const std::string& wanted) {
-    const std::vector<Camera>& cameras = input.scene.cameras;
-    if (wanted.empty()) return cameras.empty() ? default_camera(input.scene) : cameras.front();
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-        if (cameras[i].name == wanted || std::to_string(i) == wanted) return cameras[i];
-    throw InputError(input.file.string(), "cameras", "no camera \"" + wanted + "\"; " + camera_list(cameras));
 }
 
 } // namespace boxwood::cli

@@ -37,8 +37,4 @@ struct Prepared {
 /// The stored tree of a .bxw file, else one built. Throws UsageError for build options beside a stored tree.
 Prepared prepare(Device& device, const Input& input, const BuildChoice& choice);
 
-/// The camera called `wanted`, or with that index; the first when `wanted` is empty, the default camera when there is
-/// none. Throws InputError listing the cameras.
-Camera choose_camera(const Input& input, const std::string& wanted);
-
 } // namespace boxwood::cli

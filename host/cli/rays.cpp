@@ -18,9 +18,7 @@ Buffer<Ray> without_null_rays(Device& device, const Buffer<Ray>& rays) {
 } // namespace
 
 void add_ray_options(CLI::App& command, RayChoice& choice) {
-    command.add_option("--camera", choice.camera,
-                       "Name or index of the camera (default: the first, else a view of "
-                       "everything)");
+    add_view(command, choice.view);
     add_resolution(command, choice.resolution);
     command.add_option("--seed", choice.seed, "Seed of diffuse rays (default: 1)")->check(CLI::NonNegativeNumber);
 }
@@ -29,7 +27,7 @@ Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, cons
     const Stage stage(device, "rays");
     const Resolution& size = choice.resolution;
     Buffer<Ray> primary = make_buffer<Ray>(device, std::size_t{size.width} * size.height, "rays");
-    primary_rays(device, choose_camera(input, choice.camera), size.width, size.height, primary);
+    primary_rays(device, choose_camera(input, choice.view), size.width, size.height, primary);
     if (choice.kind == "primary") return primary;
 
     const Geometry geometry = upload(device, input.scene);

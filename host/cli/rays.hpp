@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "boxwood/trace.hpp"
-#include "cli/input.hpp"
+#include "cli/view.hpp"
 
 namespace boxwood::cli {
 
 /// Which rays to trace.
 struct RayChoice {
     std::string kind = "primary"; ///< primary, diffuse or shadow.
-    std::string camera;
+    View view;
     std::uint64_t seed = 1;
     Resolution resolution;
 };
 
-/// --camera, --resolution and --seed.
+/// Those of the view, --resolution and --seed.
 void add_ray_options(CLI::App& command, RayChoice& choice);
 
 /// Camera rays, or those that leave their hits; rays that a miss would leave empty are left out, as they would flatter the

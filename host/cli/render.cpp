@@ -11,6 +11,7 @@
 #include "cli/light.hpp"
 #include "cli/render_work.hpp"
 #include "cli/report.hpp"
+#include "cli/view.hpp"
 
 namespace boxwood::cli {
 
@@ -21,7 +22,7 @@ struct Arguments {
     std::filesystem::path input;
     std::filesystem::path output;
     std::filesystem::path report;
-    std::string camera;
+    View view;
     std::string environment;
     std::vector<std::string> aovs;
     float exposure = 0.0f;
@@ -186,7 +187,7 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 3 + options.light.samples);
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
-    const Camera camera = choose_camera(input, arguments.camera);
+    const Camera camera = choose_camera(input, arguments.view);
     const Surroundings around =
         surroundings(arguments.environment, shading_requirements(input.scene), options.light.integrator);
     if (!arguments.ao_distance) options.ao_distance = default_ao_distance(input.scene);
@@ -216,8 +217,7 @@ void run(const Arguments& arguments) {
 
 void add_picture_options(CLI::App& app, Arguments& arguments) {
     add_resolution(app, arguments.resolution);
-    app.add_option("--camera", arguments.camera,
-                   "Name or index of the camera (default: the first, else a view of everything)");
+    add_view(app, arguments.view);
     app.add_option(
            "--environment", arguments.environment,
            "Light from all around: an OpenEXR picture of the sphere (FILE.exr), sky, none, or one radiance R,G,B "

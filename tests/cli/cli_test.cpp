@@ -104,6 +104,12 @@ TEST_CASE("cli: bad input is code 3, names the file, and leaves nothing behind")
     check_failure(tool.run("info draco.gltf"), 3, "KHR_draco_mesh_compression");
     check_failure(tool.run("render forest.glb -o x.exr --camera Gina"), 3, "0 \"");
     check_failure(tool.run("trace forest.bxw --camera 7"), 3, "0 \"");
+    const std::string render = "render forest.glb -o x.exr --resolution 4x4 ";
+    check_failure(tool.run(render + "--eye 0,1,2"), 2, "--target");
+    check_failure(tool.run(render + "--eye 0,1 --target 0,0,0"), 2, "\"0,1\" is not a point");
+    check_failure(tool.run(render + "--eye 0,1,nan --target 0,0,0"), 2, "nan");
+    check_failure(tool.run(render + "--eye 0,1,2 --target 0,1,2"), 2, "same point");
+    check_failure(tool.run(render + "--fov 180"), 2, "180");
     CHECK(tool.files() == before);
 }
 
