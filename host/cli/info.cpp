@@ -84,8 +84,10 @@ Json images_report(const Scene& scene) {
 BuildOptions options_of(const Input& input) {
     BuildOptions options;
     if (!input.tree) return options;
-    options.levels = input.tree->levels;
     options.bounds.kind = input.tree->bounds;
+    // What was asked for shows only where it is not what Levels::automatic takes.
+    const bool two = input.tree->levels == Levels::two;
+    if (requirements(input.scene, options).two_levels != two) options.levels = input.tree->levels;
     return options;
 }
 
