@@ -10,9 +10,11 @@
 INLINE uint choose(global const float* distribution, uint count, float* u, float* probability) {
     uint low = 0;
     for (uint left = count; left > 1;) {
-        // Which way it goes cannot be foreseen: no branch.
+        // Which way it goes cannot be foreseen: no branch. Floats that are not negative compare as their bits do, and these
+        // are at most those of 1, so that the difference has the sign.
         const uint step = left >> 1;
-        low += select(0u, step, (uint)(distribution[low + step] <= *u));
+        const int below = (as_int(*u) - as_int(distribution[low + step])) >> 31;
+        low += step & ~(uint)below;
         left -= step;
     }
     // With 0 and 1 at the ends and u below 1, low is an element of a probability that is not 0.
