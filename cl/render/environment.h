@@ -52,7 +52,7 @@ INLINE float texel_density(global const EnvironmentRecord* record, float probabi
 
 #if ENVIRONMENT
 /// Radiance from a normalised direction, and the density, by solid angle, with which sample_environment draws it.
-INLINE float3 environment_radiance(const EnvironmentArrays* environment, float3 direction, float* pdf) {
+INLINE float3 environment_light(const EnvironmentArrays* environment, float3 direction, float* pdf) {
 #if ENVIRONMENT == 1
     (void)direction;
     *pdf = 0.5f * M_1_PI_F;
@@ -69,6 +69,11 @@ INLINE float3 environment_radiance(const EnvironmentArrays* environment, float3 
     *pdf = texel_density(environment->record, probability, sine);
     return picture_radiance(environment, place);
 #endif
+}
+
+INLINE float3 environment_radiance(const EnvironmentArrays* environment, float3 direction) {
+    float pdf;
+    return environment_light(environment, direction, &pdf);
 }
 
 /// Draws a direction by u in [0, 1)^2; tells its radiance and its density. `normal` is that of the surface, read for a constant

@@ -131,7 +131,7 @@ INLINE float3 sky_light(const PathWorld* world, float3 direction, bool first, fl
     if (!first) return (float3)(0.0f);
 #endif
     float other;
-    const float3 radiance = environment_radiance(&world->environment, direction, &other);
+    const float3 radiance = environment_light(&world->environment, direction, &other);
     (void)pdf;
     (void)first;
 #if STRATEGY == 0

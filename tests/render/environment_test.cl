@@ -18,7 +18,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void environment_
     const float3 direction = vload3(i, directions);
     float3 sampled;
     float pdf;
-    const float3 radiance = environment_radiance(&environment, direction, &pdf);
+    const float3 radiance = environment_light(&environment, direction, &pdf);
     vstore4((float4)(radiance, pdf), i, out);
     const float3 light = sample_environment(&environment, (float3)(0.0f, 1.0f, 0.0f), vload2(i, points), &sampled, &pdf);
     vstore4((float4)(sampled, pdf), 0, drawn + 7 * i);
