@@ -25,7 +25,7 @@ typedef struct Sampler {
 INLINE float unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
 
 INLINE uint reverse_bits(uint x) {
-    x = (x >> 16) | (x << 16);
+    x = rotate(x, 16u); // by name: Oclgrind lacks the instruction that compilers make of the whole otherwise
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
     x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
     x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
