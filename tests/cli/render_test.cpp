@@ -65,6 +65,9 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
         check_failure(tool.run(render + "--environment " + light), 2, "R,G,B");
     }
     check_failure(tool.run(render + "--environment dawn.exr"), 3, "dawn.exr");
+    check_failure(tool.run(render + "--eye 1,2,3"), 2, "--target");
+    check_failure(tool.run(render + "--eye 1,2 --target 0,0,0"), 2, "--eye");
+    check_failure(tool.run(render + "--eye 1,2,3 --target 0,0,0 --camera 0"), 2, "--camera");
     check_failure(tool.run(render + "--resume"), 3, "x.exr.resume");
     check_failure(tool.run(render + "--resolution 65536x65536"), 1, "pixels of a picture");
     CHECK(tool.files() == Names{"forest.glb", "room.glb"});
@@ -105,6 +108,20 @@ TEST_CASE("render tool: the sky lights a scene only when nothing else does, and 
     CHECK(tool.succeed(render + "--environment 1,0.5,0.5").out.find("environment constant") != std::string::npos);
     tool.succeed(render + "--environment light.exr --report x.json");
     CHECK(Json::parse(tool.contents("x.json"))["options"]["environment"] == "light.exr");
+}
+
+TEST_CASE("render tool: an eye and a target are a camera") {
+    const Tool tool;
+    tool.succeed("scene sphere -o sphere.glb");
+    // One pixel, whose middle looks at the target: on the unit sphere, or past it.
+    const auto middle = [&](const std::string& target) {
+        tool.succeed(
+            "render sphere.glb -o x.exr --integrator normals --spp 1 --resolution 1x1 --eye 30,40,0 --target " +
+            target);
+        return tool.contents("x.png");
+    };
+    CHECK(middle("0,0,0") == middle("15,20,0")); // along the same line
+    CHECK(middle("0,0,0") != middle("0,0,20"));
 }
 
 TEST_CASE("render tool: exposure changes the preview alone") {
