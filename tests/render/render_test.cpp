@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/rays.hpp"
-#include "boxwood/render.hpp"
-#include "support.hpp"
+#include "render/two_squares.hpp"
 
 using namespace boxwood;
 using namespace boxwood::test;
@@ -21,93 +15,6 @@ using namespace boxwood::test;
 TEST_SUITE_BEGIN("render");
 
 namespace {
-
-// Odd, so that a pixel lies in the middle, and small.
-constexpr std::uint32_t width = 33, height = 21;
-
-/// Two squares before a camera at the origin: instance 0 faces it from the left half of z = -3; instance 1, mirrored
-/// and stretched, is tilted and covers a part of the right half. Miss around them.
-Scene two_squares(float scale) {
-    Scene scene;
-    scene.meshes.push_back({"square", {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
-    const glm::mat4 world = glm::scale(glm::mat4(1.0f), glm::vec3(scale));
-    const glm::mat4 left = glm::translate(glm::mat4(1.0f), glm::vec3(-1.25f, 0, -3));
-    glm::mat4 right = glm::translate(glm::mat4(1.0f), glm::vec3(1.25f, 0, -4));
-    right = glm::scale(right, glm::vec3(1, 1, 0.25f)); // after the turn: what tells the inverse transpose apart
-    right = glm::rotate(right, 0.75f, glm::vec3(0, 1, 0));
-    right = glm::scale(right, glm::vec3(-1, 1, 1));
-    scene.meshes.push_back(scene.meshes[0]);
-    scene.materials.resize(2); // the first is not used
-    scene.materials[1].base_color = {0.25f, 0.5f, 0.75f, 1.0f};
-    scene.meshes[1].materials = {1, BOXWOOD_NONE};
-    scene.instances.push_back({"left", 0, world * left});
-    scene.instances.push_back({"right", 1, world * right});
-    return scene;
-}
-
-Camera wide_camera() {
-    Camera camera;
-    camera.vertical_fov = 1.2f;
-    return camera;
-}
-
-/// AOVs of the pixels' centres, which every integrator has.
-std::vector<Aov> centre_aovs() {
-    return {Aov::depth,    Aov::normal,    Aov::position, Aov::albedo,
-            Aov::instance, Aov::primitive, Aov::material, Aov::cost};
-}
-
-RenderOptions options_of(Integrator integrator, const std::vector<Aov>& aovs, std::uint32_t samples = 1) {
-    RenderOptions options;
-    options.light.integrator = integrator;
-    options.light.samples = samples;
-    options.width = width;
-    options.height = height;
-    options.aovs = aovs;
-    return options;
-}
-
-Image picture(const Scene& scene, const std::vector<Aov>& aovs, const BuildOptions& options = {}) {
-    Device& device = test_device();
-    return render(device, scene, build(device, scene, options), {}, wide_camera(),
-                  options_of(Integrator::normals, aovs));
-}
-
-template <class T>
-const std::vector<T>& plane(const Image& image, const std::string& name) {
-    for (const Channel& channel : image.channels)
-        if (channel.name == name) return std::get<std::vector<T>>(channel.samples);
-    throw std::runtime_error("no channel " + name);
-}
-
-bool contains(const Image& image, const std::string& name) {
-    for (const Channel& channel : image.channels)
-        if (channel.name == name) return true;
-    return false;
-}
-
-glm::vec3 vector_at(const Image& image, const std::string& layer, std::string_view parts, std::size_t i) {
-    glm::vec3 v;
-    for (int c = 0; c < 3; ++c) v[c] = plane<float>(image, layer + parts[static_cast<std::size_t>(c)])[i];
-    return v;
-}
-
-/// The same channels with the same bits.
-bool same_channels(const Image& a, const Image& b) {
-    if (a.channels.size() != b.channels.size()) return false;
-    for (std::size_t c = 0; c < a.channels.size(); ++c) {
-        if (a.channels[c].name != b.channels[c].name) return false;
-        const bool same = std::visit(
-            [&](const auto& samples) {
-                using Samples = std::decay_t<decltype(samples)>;
-                const auto* other = std::get_if<Samples>(&b.channels[c].samples);
-                return other && same_bits(samples, *other);
-            },
-            a.channels[c].samples);
-        if (!same) return false;
-    }
-    return true;
-}
 
 struct Expected {
     double t = std::numeric_limits<double>::infinity();
@@ -293,139 +200,6 @@ TEST_CASE("render: the words of every option of light") {
     for (const char* word : {"anisotropic", "trilinear", "nearest"}) CHECK(name(to_filter(word)) == word);
     CHECK_THROWS_AS(to_integrator("bdpt"), InputError);
     CHECK(name(LightOptions{}.integrator) == "path");
-}
-
-namespace {
-
-Environment white() {
-    Environment environment;
-    environment.radiance = glm::vec3(1.0f);
-    return environment;
-}
-
-/// The pictures of an integrator on a small scene with every AOV it has.
-struct Painter {
-    Device& device = test_device();
-    Scene scene = two_squares(1.0f);
-    Tree tree = build(device, scene);
-    RenderOptions options;
-
-    Painter(Integrator integrator, std::uint32_t samples) : options(options_of(integrator, {}, samples)) {
-        for (const Aov aov : all_aovs())
-            if (has(integrator, aov)) options.aovs.push_back(aov);
-    }
-    Render start() { return Render(device, scene, tree, white(), wide_camera(), options); }
-};
-
-constexpr std::array some_integrators = {Integrator::path, Integrator::direct,  Integrator::ambient,
-                                         Integrator::ao,   Integrator::normals, Integrator::cost};
-
-} // namespace
-
-TEST_CASE("render: batches of any size give the same bytes") {
-    for (const Integrator integrator : some_integrators) {
-        Painter painter(integrator, 3);
-        const auto paint = [&painter] {
-            Render work = painter.start();
-            while (!work.done()) work.advance();
-            CHECK(work.rejected_samples() == 0);
-            return work.image();
-        };
-        const Image whole = paint();
-        for (const std::uint32_t batch :
-             {64u, 500u, width * height - 1}) { // two to eleven batches, the last one shorter
-            painter.options.batch = batch;
-            CHECK(same_channels(paint(), whole));
-        }
-    }
-}
-
-TEST_CASE("render: the rasteriser's primary hits give the picture of rays, in batches too") {
-    for (const Integrator integrator : {Integrator::path, Integrator::normals}) {
-        Painter painter(integrator, 4);
-        const auto paint = [&painter] {
-            Render work = painter.start();
-            while (!work.done()) work.advance();
-            return work.image();
-        };
-        const Image rays = paint();
-        painter.options.light.primary = Primary::raster;
-        const Image raster = paint();
-        std::size_t differing = 0; // pixels with a sample on an edge within a rounding: a few at most
-        for (std::size_t i = 0; i < width * height; ++i)
-            if (vector_at(rays, "", "RGB", i) != vector_at(raster, "", "RGB", i)) ++differing;
-        CHECK(differing <= 5);
-        painter.options.batch = 100;
-        CHECK(same_channels(paint(), raster));
-    }
-}
-
-TEST_CASE("render: a picture grows to what render() gives, and goes on from a state bit by bit") {
-    for (const Integrator integrator : some_integrators) {
-        CAPTURE(name(integrator));
-        Painter painter(integrator, 5);
-        std::erase(painter.options.aovs, Aov::cost); // which the tree decides about
-        const Image whole =
-            render(painter.device, painter.scene, painter.tree, white(), wide_camera(), painter.options);
-        Render work = painter.start();
-        CHECK(work.samples() == 0);
-        CHECK(plane<float>(work.image(), "R") == std::vector<float>(width * height, 0.0f));
-        for (int i = 0; i < 2; ++i) work.advance();
-        CHECK(std::get<std::int32_t>(work.image().attributes.at("samples")) == 2);
-        const std::vector<std::byte> state = work.state();
-
-        painter.tree = build(painter.device, painter.scene, {.layout = Layout::binary}); // answers do not depend on it
-        painter.options.batch = 100;
-        Render other = painter.start();
-        other.restore(state, "test");
-        CHECK(other.samples() == 2);
-        while (!other.done()) other.advance();
-        other.advance(); // nothing is left to do
-        CHECK(other.samples() == 5);
-        if (integrator != Integrator::cost) CHECK(same_channels(other.image(), whole));
-    }
-}
-
-TEST_CASE("render: a state of something else, or a damaged one, is refused") {
-    Painter painter(Integrator::normals, 4);
-    Render work = painter.start();
-    work.advance();
-    const std::vector<std::byte> state = work.state();
-    const auto refused = [&](Painter& other, std::vector<std::byte> bytes) {
-        Render render = other.start();
-        try {
-            render.restore(bytes, "a.resume");
-        } catch (const InputError& error) {
-            CHECK(error.file == "a.resume");
-            CHECK(render.samples() == 0);
-            return true;
-        }
-        return false;
-    };
-    CHECK_FALSE(refused(painter, state));
-    CHECK(refused(painter, {}));
-    const std::size_t sizes[] = {1, 39, 40, 41, state.size() - 4, state.size() - 1};
-    for (const std::size_t size : sizes) CHECK(refused(painter, {state.begin(), state.begin() + std::ptrdiff_t(size)}));
-    std::vector<std::byte> longer = state;
-    longer.resize(longer.size() + 4);
-    CHECK(refused(painter, longer));
-    for (std::size_t at = 0; at < 48; ++at) { // every byte of the header and the first of the film
-        std::vector<std::byte> damaged = state;
-        damaged[at] ^= std::byte{1};
-        CHECK(refused(painter, damaged));
-    }
-    const auto differs = [&](const auto& change) {
-        Painter other(Integrator::normals, 4);
-        change(other);
-        return refused(other, state);
-    };
-    CHECK_FALSE(differs([](Painter&) {}));
-    CHECK(differs([](Painter& other) { other.options.light.seed = 2; }));
-    CHECK(differs([](Painter& other) { other.options.light.samples = 8; }));
-    CHECK(differs([](Painter& other) { other.options.width += 1; }));
-    CHECK(differs([](Painter& other) { other.options.light.integrator = Integrator::cost; }));
-    CHECK(differs([](Painter& other) { other.scene.meshes[0].positions[0].x -= 0.5f; }));
-    CHECK(differs([](Painter& other) { other.scene.materials[1].base_color.x = 0.5f; }));
 }
 
 TEST_SUITE_END();

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Pictures that grow: batches, primary hits of either kind, states to go on from.
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "boxwood/error.hpp"
+#include "render/two_squares.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("render");
+
+namespace {
+
+Environment white() {
+    Environment environment;
+    environment.radiance = glm::vec3(1.0f);
+    return environment;
+}
+
+/// The pictures of an integrator on a small scene with every AOV it has.
+struct Painter {
+    Device& device = test_device();
+    Scene scene = two_squares(1.0f);
+    Tree tree = build(device, scene);
+    RenderOptions options;
+
+    Painter(Integrator integrator, std::uint32_t samples) : options(options_of(integrator, {}, samples)) {
+        for (const Aov aov : all_aovs())
+            if (has(integrator, aov)) options.aovs.push_back(aov);
+    }
+    Render start() { return Render(device, scene, tree, white(), wide_camera(), options); }
+};
+
+constexpr std::array some_integrators = {Integrator::path, Integrator::direct,  Integrator::ambient,
+                                         Integrator::ao,   Integrator::normals, Integrator::cost};
+
+} // namespace
+
+TEST_CASE("render: batches of any size give the same bytes") {
+    for (const Integrator integrator : some_integrators) {
+        Painter painter(integrator, 3);
+        const auto paint = [&painter] {
+            Render work = painter.start();
+            while (!work.done()) work.advance();
+            CHECK(work.rejected_samples() == 0);
+            return work.image();
+        };
+        const Image whole = paint();
+        for (const std::uint32_t batch :
+             {64u, 500u, width * height - 1}) { // two to eleven batches, the last one shorter
+            painter.options.batch = batch;
+            CHECK(same_channels(paint(), whole));
+        }
+    }
+}
+
+TEST_CASE("render: the rasteriser's primary hits give the picture of rays, in batches too") {
+    for (const Integrator integrator : {Integrator::path, Integrator::normals}) {
+        Painter painter(integrator, 4);
+        const auto paint = [&painter] {
+            Render work = painter.start();
+            while (!work.done()) work.advance();
+            return work.image();
+        };
+        const Image rays = paint();
+        painter.options.light.primary = Primary::raster;
+        const Image raster = paint();
+        std::size_t differing = 0; // pixels with a sample on an edge within a rounding: a few at most
+        for (std::size_t i = 0; i < width * height; ++i)
+            if (vector_at(rays, "", "RGB", i) != vector_at(raster, "", "RGB", i)) ++differing;
+        CHECK(differing <= 5);
+        painter.options.batch = 100;
+        CHECK(same_channels(paint(), raster));
+    }
+}
+
+TEST_CASE("render: a picture grows to what render() gives, and goes on from a state bit by bit") {
+    for (const Integrator integrator : some_integrators) {
+        CAPTURE(name(integrator));
+        Painter painter(integrator, 5);
+        std::erase(painter.options.aovs, Aov::cost); // which the tree decides about
+        const Image whole =
+            render(painter.device, painter.scene, painter.tree, white(), wide_camera(), painter.options);
+        Render work = painter.start();
+        CHECK(work.samples() == 0);
+        CHECK(plane<float>(work.image(), "R") == std::vector<float>(width * height, 0.0f));
+        for (int i = 0; i < 2; ++i) work.advance();
+        CHECK(std::get<std::int32_t>(work.image().attributes.at("samples")) == 2);
+        const std::vector<std::byte> state = work.state();
+
+        painter.tree = build(painter.device, painter.scene, {.layout = Layout::binary}); // answers do not depend on it
+        painter.options.batch = 100;
+        Render other = painter.start();
+        other.restore(state, "test");
+        CHECK(other.samples() == 2);
+        while (!other.done()) other.advance();
+        other.advance(); // nothing is left to do
+        CHECK(other.samples() == 5);
+        if (integrator != Integrator::cost) CHECK(same_channels(other.image(), whole));
+    }
+}
+
+TEST_CASE("render: a state of something else, or a damaged one, is refused") {
+    Painter painter(Integrator::normals, 4);
+    Render work = painter.start();
+    work.advance();
+    const std::vector<std::byte> state = work.state();
+    const auto refused = [&](Painter& other, std::vector<std::byte> bytes) {
+        Render render = other.start();
+        try {
+            render.restore(bytes, "a.resume");
+        } catch (const InputError& error) {
+            CHECK(error.file == "a.resume");
+            CHECK(render.samples() == 0);
+            return true;
+        }
+        return false;
+    };
+    CHECK_FALSE(refused(painter, state));
+    CHECK(refused(painter, {}));
+    const std::size_t sizes[] = {1, 39, 40, 41, state.size() - 4, state.size() - 1};
+    for (const std::size_t size : sizes) CHECK(refused(painter, {state.begin(), state.begin() + std::ptrdiff_t(size)}));
+    std::vector<std::byte> longer = state;
+    longer.resize(longer.size() + 4);
+    CHECK(refused(painter, longer));
+    for (std::size_t at = 0; at < 48; ++at) { // every byte of the header and the first of the film
+        std::vector<std::byte> damaged = state;
+        damaged[at] ^= std::byte{1};
+        CHECK(refused(painter, damaged));
+    }
+    const auto differs = [&](const auto& change) {
+        Painter other(Integrator::normals, 4);
+        change(other);
+        return refused(other, state);
+    };
+    CHECK_FALSE(differs([](Painter&) {}));
+    CHECK(differs([](Painter& other) { other.options.light.seed = 2; }));
+    CHECK(differs([](Painter& other) { other.options.light.samples = 8; }));
+    CHECK(differs([](Painter& other) { other.options.width += 1; }));
+    CHECK(differs([](Painter& other) { other.options.light.integrator = Integrator::cost; }));
+    CHECK(differs([](Painter& other) { other.scene.meshes[0].positions[0].x -= 0.5f; }));
+    CHECK(differs([](Painter& other) { other.scene.materials[1].base_color.x = 0.5f; }));
+}
+
+TEST_SUITE_END();
