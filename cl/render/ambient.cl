@@ -141,9 +141,8 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
             reflects = reflects && !unlit;
         }
 #if ENVIRONMENT
-        float density;
         if (bounce == 0 && hit.primitive == BOXWOOD_NONE)
-            seen = environment_radiance(&around, normalize_any(vload3(0, ray.direction)), &density);
+            seen = environment_radiance(&around, normalize_any(vload3(0, ray.direction)));
 #endif
         throughput = reflects ? throughput * vertex.point.base_color : (float3)(0.0f);
         null_ray(shadow_rays + i);
