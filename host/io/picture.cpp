@@ -44,9 +44,39 @@ constexpr std::size_t smallest_limit = std::size_t{1} << 20;
 
 const stbi_uc* first_byte(const EncodedImage& image) { return reinterpret_cast<const stbi_uc*>(image.bytes.data()); }
 
+/// Whether every Huffman table of a JPEG file has at most 256 codes: stb_image 2.27 writes beyond its own for more.
+bool has_sound_tables(std::span<const std::byte> file) {
+    std::size_t at = 2;
+    const auto byte = [&file](std::size_t i) { return std::to_integer<unsigned>(file[i]); };
+    while (at + 4 <= file.size()) {
+        if (byte(at) != 0xff || byte(at + 1) == 0x00 || (byte(at + 1) >= 0xd0 && byte(at + 1) <= 0xd7)) {
+            ++at; // coded data, and the marks within
+            continue;
+        }
+        const unsigned marker = byte(at + 1);
+        if (marker == 0xd9) return true;
+        if (marker == 0xff || marker == 0x01 || marker == 0xd8) {
+            at += marker == 0xff ? 1 : 2; // no segment
+            continue;
+        }
+        const std::size_t end = at + 2 + (byte(at + 2) << 8 | byte(at + 3));
+        for (std::size_t table = at + 4; marker == 0xc4 && table + 17 <= std::min(end, file.size());) {
+            std::size_t codes = 0;
+            for (std::size_t i = 1; i <= 16; ++i) codes += byte(table + i);
+            if (codes > 256) return false;
+            table += 17 + codes;
+        }
+        at = end;
+    }
+    return true;
+}
+
+/// Length of a file that may be given to the decoder.
 int byte_count(const EncodedImage& image) {
     if (!picture_format(image.bytes)) throw InputError(image.name, "", "is neither PNG nor JPEG");
     if (image.bytes.size() > std::numeric_limits<int>::max()) throw InputError(image.name, "", "is too large a file");
+    if (picture_format(image.bytes) == PictureFormat::jpeg && !has_sound_tables(image.bytes))
+        throw InputError(image.name, "", "cannot be decoded: a table of codes is too long");
     return static_cast<int>(image.bytes.size());
 }
 

@@ -37,8 +37,7 @@ struct Checked {
 bool unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) <= rounding; }
 
 void validate_use(const Scene& scene, const TextureUse& use, const Checked& owner, const char* member) {
-    if (!use.used()) return;
-    owner.require(use.texture < scene.textures.size(), member, "names a texture that does not exist");
+    owner.require(!use.used() || use.texture < scene.textures.size(), member, "names a texture that does not exist");
     owner.require(use.uv_set < 2, member, "reads a set of texture coordinates that does not exist");
     for (int column = 0; column < 3; ++column)
         owner.vector(use.transform[column], -largest_coordinate, largest_coordinate, member);
@@ -62,12 +61,9 @@ void validate_material(const Scene& scene, const Material& material, const Check
 void validate_light(const Light& light, const Checked& checked) {
     checked.vector(light.intensity, 0.0f, largest_radiance, "intensity");
     checked.require(light.intensity != glm::vec3(0.0f), "intensity", "is zero");
-    if (light.kind != LightKind::directional) {
-        checked.vector(light.position, -largest_coordinate, largest_coordinate, "position");
-        checked.require(light.range > 0.0f, "range", "is not positive");
-    }
-    if (light.kind != LightKind::point) checked.require(unit(light.direction), "direction", "is not normalised");
-    if (light.kind != LightKind::spot) return;
+    checked.vector(light.position, -largest_coordinate, largest_coordinate, "position");
+    checked.require(light.range > 0.0f, "range", "is not positive");
+    checked.require(unit(light.direction), "direction", "is not normalised");
     checked.number(light.outer_cone, smallest_cone, std::numbers::pi_v<float> / 2.0f, "outer_cone");
     checked.require(light.inner_cone >= 0.0f && light.inner_cone < light.outer_cone, "inner_cone",
                     "is not between 0 and outer_cone");

@@ -75,7 +75,7 @@ Material plain_material();
 
 enum class LightKind { point, spot, directional };
 
-/// A light without extent, in world space.
+/// A light without extent, in world space. Members that its kind does not use are in their range, too.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
