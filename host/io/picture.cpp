@@ -47,8 +47,9 @@ const stbi_uc* first_byte(const EncodedImage& image) { return reinterpret_cast<c
 /// Whether every Huffman table of a JPEG file has at most 256 codes: stb_image 2.27 writes beyond its own for more.
 bool has_sound_tables(std::span<const std::byte> file) {
     std::size_t at = 2;
-    const auto byte = [&file](std::size_t i) { return std::to_integer<unsigned>(file[i]); };
-    while (at + 4 <= file.size()) {
+    // The decoder, too, reads zeros behind the end of the file, and a table whose segment ends within it.
+    const auto byte = [&file](std::size_t i) { return i < file.size() ? std::to_integer<unsigned>(file[i]) : 0u; };
+    while (at < file.size()) {
         if (byte(at) != 0xff || byte(at + 1) == 0x00 || (byte(at + 1) >= 0xd0 && byte(at + 1) <= 0xd7)) {
             ++at; // coded data, and the marks within
             continue;
@@ -60,7 +61,7 @@ bool has_sound_tables(std::span<const std::byte> file) {
             continue;
         }
         const std::size_t end = at + 2 + (byte(at + 2) << 8 | byte(at + 3));
-        for (std::size_t table = at + 4; marker == 0xc4 && table + 17 <= std::min(end, file.size());) {
+        for (std::size_t table = at + 4; marker == 0xc4 && table < end;) {
             std::size_t codes = 0;
             for (std::size_t i = 1; i <= 16; ++i) codes += byte(table + i);
             if (codes > 256) return false;

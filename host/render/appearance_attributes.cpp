@@ -68,6 +68,18 @@ glm::vec4 tangent_of(const Frame& frame, const glm::vec3& vertex_normal) {
     return {glm::vec3(unit), side < 0.0 ? -1.0f : 1.0f};
 }
 
+/// The mesh's own tangents, and made ones where those are zero.
+std::vector<glm::vec4> completed_tangents(const Scene& scene, const Mesh& mesh) {
+    constexpr glm::vec4 none(0.0f);
+    if (!mesh.tangents.empty() && std::find(mesh.tangents.begin(), mesh.tangents.end(), none) == mesh.tangents.end())
+        return mesh.tangents;
+    std::vector<glm::vec4> tangents = make_tangents(scene, mesh);
+    if (tangents.empty()) return mesh.tangents;
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i)
+        if (mesh.tangents[i] != none) tangents[i] = mesh.tangents[i];
+    return tangents;
+}
+
 template <class Vector>
 void put(const std::vector<Vector>& values, std::size_t vertex, const Vector& missing, std::vector<float>& target) {
     const Vector& value = values.empty() ? missing : values[vertex];
@@ -98,9 +110,8 @@ std::vector<float> vertex_attributes(const Scene& scene, const ShadingRequiremen
     const std::vector<bool> shown = meshes_in_use(scene);
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
-        std::vector<glm::vec4> made;
-        if (needs.tangents && shown[m] && mesh.tangents.empty()) made = make_tangents(scene, mesh);
-        const std::vector<glm::vec4>& tangents = mesh.tangents.empty() ? made : mesh.tangents;
+        std::vector<glm::vec4> tangents;
+        if (needs.tangents) tangents = shown[m] ? completed_tangents(scene, mesh) : mesh.tangents;
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             if (needs.normals) put(mesh.normals, i, glm::vec3(0.0f), attributes);
             if (needs.tangents) put(tangents, i, glm::vec4(0.0f), attributes);

@@ -17,7 +17,7 @@ namespace boxwood {
 std::vector<glm::vec4> make_tangents(const Scene& scene, const Mesh& mesh);
 
 /// requirements.attribute_floats() per vertex of all meshes: zero for what a mesh lacks, white for colours. Tangents that are
-/// lacking are made, of meshes in use that need them. O(size of the scene).
+/// lacking or zero are made, of meshes in use that need them. O(size of the scene).
 std::vector<float> vertex_attributes(const Scene& scene, const ShadingRequirements& requirements);
 
 } // namespace boxwood

@@ -217,6 +217,26 @@ TEST_CASE("made tangents follow growing u, whatever the size, and v's side decid
     }
 }
 
+TEST_CASE("tangents of a mesh stay, and are made where they are zero") {
+    Material material;
+    material.normal_texture.texture = 0;
+    Scene scene = one_square(material);
+    scene.textures = {{0}};
+    scene.images = {image("flat", {1, 1}, {128, 128, 255, 255})};
+    scene.meshes[0].tangents = {{0, 1, 0, -1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 1}};
+    const Appearance appearance = appearance_of(scene);
+    REQUIRE(appearance.requirements.attribute_floats() == 9); // normal, tangent, uv
+    const auto all = download(test_device(), appearance.attributes);
+    const auto tangent = [&all](std::size_t vertex) {
+        const float* at = &all[9 * vertex + 3];
+        return glm::vec4(at[0], at[1], at[2], at[3]);
+    };
+    CHECK(tangent(0) == glm::vec4(0, 1, 0, -1));
+    CHECK(tangent(1) == glm::vec4(1, 0, 0, 1));
+    CHECK(tangent(2) == glm::vec4(1, 0, 0, 1));
+    CHECK(tangent(3) == glm::vec4(0, 0, 1, 1));
+}
+
 TEST_CASE("the texture's transform turns made tangents") {
     Material material;
     material.normal_texture.texture = 0;
