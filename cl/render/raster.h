@@ -147,7 +147,7 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
 /// the triangle shows, 0 when it is not.
 inline int side_shown(global const ScreenTriangle* triangle, float x, float y) {
     int sides = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && abs(sides) == (uint)i; ++i) {
         float a[3], b[3];
         vstore3(vload3(0, triangle->corners[(i + 1) % 3]), 0, a);
         vstore3(vload3(0, triangle->corners[(i + 2) % 3]), 0, b);

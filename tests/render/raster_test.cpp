@@ -56,7 +56,7 @@ TEST_CASE("raster: the hits of rays, on every procedural scene and kind of tree"
             const Camera& camera = scene.cameras.at(0);
             const BothHits both = both_hits(test_device(), scene, options, camera, width, height, {0.37f, -0.81f});
             const Agreement result = agreement(scene, camera, height, both);
-            CHECK(result.hits > 0);
+            if (!small_sizes()) CHECK(result.hits > 0);
             check_agreement(result);
         }
     }
@@ -148,9 +148,9 @@ void check_filled(const Scene& scene, const Camera& camera, std::uint32_t width,
 
 TEST_CASE("raster: a pixel of a closed surface has one triangle, also on edges and corners") {
     // Three tiles by two. Corners of the triangles are pixel centres (jitter 0), or corners of pixels.
-    const std::uint32_t width = 48, height = 32;
+    const std::uint32_t width = small_sizes() ? 18 : 48, height = small_sizes() ? 4 : 32;
     Random random(310);
-    const std::size_t triangles = small_sizes() ? 40 : 400;
+    const std::size_t triangles = small_sizes() ? 16 : 400;
     // On the grid of pixel centres: whole numbers and a half, never outside of the triangle but often on its edges.
     const auto on_grid = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
         const glm::vec3 inside = (a + b + c) / 3.0f;
@@ -164,7 +164,7 @@ TEST_CASE("raster: a pixel of a closed surface has one triangle, also on edges a
     };
     // On an edge, rounded: a triangle without area, or turned over.
     const auto on_edge = [&](glm::vec3 a, glm::vec3 b, glm::vec3) { return a + random.uniform(0, 1) * (b - a); };
-    const glm::vec2 reach(width / 2 + 0.5f, height / 2 + 0.5f);
+    const glm::vec2 reach(static_cast<float>(width / 2) + 0.5f, static_cast<float>(height / 2) + 0.5f);
     for (int kind = 0; kind < 3; ++kind)
         for (const glm::vec2 jitter : {glm::vec2(0.0f), glm::vec2(0.999f, -0.999f)}) {
             CAPTURE(kind);
@@ -178,7 +178,7 @@ TEST_CASE("raster: a pixel of a closed surface has one triangle, also on edges a
             Camera perspective = unit_camera(height);
             perspective.perspective = true;
             perspective.vertical_fov = 1.0f;
-            perspective.to_world = glm::translate(glm::mat4(1.0f), {0.3f, -0.2f, 20.0f});
+            perspective.to_world = glm::translate(glm::mat4(1.0f), {0.3f, -0.2f, 0.625f * static_cast<float>(height)});
             check_once(coverage(scene, perspective, width, height, jitter), true);
             check_filled(scene, perspective, width, height, jitter);
         }
@@ -343,13 +343,13 @@ TEST_CASE("raster: the hits of rays on every real scene") {
 TEST_CASE("raster: no gaps where the ray test, which rounds, has some") {
     // Triangles of a fraction of a pixel, on a slope away from the origin, so that edges round.
     Random random(314);
-    const std::uint32_t width = 150, height = 100;
+    const std::uint32_t width = small_sizes() ? 20 : 150, height = small_sizes() ? 10 : 100;
     const auto anywhere = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
         float u = random.uniform(0, 1), v = random.uniform(0, 1);
         if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
         return a + u * (b - a) + v * (c - a);
     };
-    Mesh mesh = patch({100.0f, 100.0f}, small_sizes() ? 40 : 40000, random, anywhere);
+    Mesh mesh = patch({100.0f, 100.0f}, small_sizes() ? 10 : 40000, random, anywhere);
     for (glm::vec3& p : mesh.positions) p += glm::vec3(777.0f, -333.0f, 0.3f * p.x + 0.1f * p.y);
     const Scene scene = single(std::move(mesh));
     Camera camera;
