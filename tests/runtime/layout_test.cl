@@ -5,7 +5,10 @@
 #include "shared/aabb.h"
 #include "shared/camera.h"
 #include "shared/instance.h"
+#include "shared/light.h"
+#include "shared/material.h"
 #include "shared/node.h"
+#include "shared/raster.h"
 #include "shared/ray.h"
 #include "shared/triangle.h"
 
@@ -35,7 +38,22 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         sizeof(Triangle4), OFFSET(Triangle4, v0_x), OFFSET(Triangle4, v0_y), OFFSET(Triangle4, v0_z),
         OFFSET(Triangle4, edge1_x), OFFSET(Triangle4, edge1_y), OFFSET(Triangle4, edge1_z),
         OFFSET(Triangle4, edge2_x), OFFSET(Triangle4, edge2_y), OFFSET(Triangle4, edge2_z),
-        OFFSET(Triangle4, primitive)};
+        OFFSET(Triangle4, primitive),
+        sizeof(ScreenTriangle), OFFSET(ScreenTriangle, surface), OFFSET(ScreenTriangle, corners),
+        OFFSET(ScreenTriangle, instance), OFFSET(ScreenTriangle, nearest), OFFSET(ScreenTriangle, left),
+        OFFSET(ScreenTriangle, right), OFFSET(ScreenTriangle, top), OFFSET(ScreenTriangle, bottom),
+        sizeof(TextureInput), OFFSET(TextureInput, texture), OFFSET(TextureInput, uv_set), OFFSET(TextureInput, rows),
+        sizeof(MaterialRecord), OFFSET(MaterialRecord, base_color), OFFSET(MaterialRecord, emission),
+        OFFSET(MaterialRecord, metallic), OFFSET(MaterialRecord, roughness), OFFSET(MaterialRecord, normal_scale),
+        OFFSET(MaterialRecord, occlusion_strength), OFFSET(MaterialRecord, alpha_cutoff),
+        OFFSET(MaterialRecord, specular), OFFSET(MaterialRecord, flags), OFFSET(MaterialRecord, textures),
+        sizeof(TextureRecord), OFFSET(TextureRecord, first_texel), OFFSET(TextureRecord, width),
+        OFFSET(TextureRecord, height), OFFSET(TextureRecord, levels), OFFSET(TextureRecord, wrap_u),
+        OFFSET(TextureRecord, wrap_v), OFFSET(TextureRecord, nearest), OFFSET(TextureRecord, srgb),
+        sizeof(LightRecord), OFFSET(LightRecord, position), OFFSET(LightRecord, kind), OFFSET(LightRecord, direction),
+        OFFSET(LightRecord, range), OFFSET(LightRecord, intensity), OFFSET(LightRecord, area),
+        OFFSET(LightRecord, edges), OFFSET(LightRecord, cone_scale), OFFSET(LightRecord, cone_offset),
+        OFFSET(LightRecord, instance), OFFSET(LightRecord, primitive), OFFSET(LightRecord, two_sided)};
     const uint count = sizeof(values) / sizeof(uint);
     out[0] = count;
     for (uint i = 0; i < count; ++i) out[1 + i] = values[i];

@@ -7,7 +7,10 @@
 #include "shared/aabb.h"
 #include "shared/camera.h"
 #include "shared/instance.h"
+#include "shared/light.h"
+#include "shared/material.h"
 #include "shared/node.h"
+#include "shared/raster.h"
 #include "shared/ray.h"
 #include "shared/triangle.h"
 #include "support.hpp"
@@ -41,7 +44,23 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         sizeof(Triangle4), offsetof(Triangle4, v0_x), offsetof(Triangle4, v0_y), offsetof(Triangle4, v0_z),
         offsetof(Triangle4, edge1_x), offsetof(Triangle4, edge1_y), offsetof(Triangle4, edge1_z),
         offsetof(Triangle4, edge2_x), offsetof(Triangle4, edge2_y), offsetof(Triangle4, edge2_z),
-        offsetof(Triangle4, primitive)};
+        offsetof(Triangle4, primitive),
+        sizeof(ScreenTriangle), offsetof(ScreenTriangle, surface), offsetof(ScreenTriangle, corners),
+        offsetof(ScreenTriangle, instance), offsetof(ScreenTriangle, nearest), offsetof(ScreenTriangle, left),
+        offsetof(ScreenTriangle, right), offsetof(ScreenTriangle, top), offsetof(ScreenTriangle, bottom),
+        sizeof(TextureInput), offsetof(TextureInput, texture), offsetof(TextureInput, uv_set),
+        offsetof(TextureInput, rows), sizeof(MaterialRecord), offsetof(MaterialRecord, base_color),
+        offsetof(MaterialRecord, emission), offsetof(MaterialRecord, metallic), offsetof(MaterialRecord, roughness),
+        offsetof(MaterialRecord, normal_scale), offsetof(MaterialRecord, occlusion_strength),
+        offsetof(MaterialRecord, alpha_cutoff), offsetof(MaterialRecord, specular), offsetof(MaterialRecord, flags),
+        offsetof(MaterialRecord, textures), sizeof(TextureRecord), offsetof(TextureRecord, first_texel),
+        offsetof(TextureRecord, width), offsetof(TextureRecord, height), offsetof(TextureRecord, levels),
+        offsetof(TextureRecord, wrap_u), offsetof(TextureRecord, wrap_v), offsetof(TextureRecord, nearest),
+        offsetof(TextureRecord, srgb), sizeof(LightRecord), offsetof(LightRecord, position),
+        offsetof(LightRecord, kind), offsetof(LightRecord, direction), offsetof(LightRecord, range),
+        offsetof(LightRecord, intensity), offsetof(LightRecord, area), offsetof(LightRecord, edges),
+        offsetof(LightRecord, cone_scale), offsetof(LightRecord, cone_offset), offsetof(LightRecord, instance),
+        offsetof(LightRecord, primitive), offsetof(LightRecord, two_sided)};
     // clang-format on
     Guarded<std::uint32_t> out(test_device(), 1 + expected.size());
     launch(test_device(), {"runtime/layout_test.cl", "layout_test"}, "layout test", 1, out.view());
