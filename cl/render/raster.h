@@ -50,6 +50,8 @@ INLINE void make_eye(global const CameraRecord* camera, Eye* eye) {
     eye->perspective = camera->perspective != 0;
 }
 
+INLINE float along(float3 v, float3 axis) { return fma(v.x, axis.x, fma(v.y, axis.y, v.z * axis.z)); }
+
 /// A vertex placed by `rows` as the eye sees it. The origins are subtracted first, which far from the world's origin keeps what
 /// is left. A vertex gives the same in every triangle.
 INLINE float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
@@ -57,7 +59,7 @@ INLINE float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
         (float3)(fma(rows[0], p.x, fma(rows[1], p.y, fma(rows[2], p.z, rows[3] - eye->origin.x))),
                  fma(rows[4], p.x, fma(rows[5], p.y, fma(rows[6], p.z, rows[7] - eye->origin.y))),
                  fma(rows[8], p.x, fma(rows[9], p.y, fma(rows[10], p.z, rows[11] - eye->origin.z))));
-    return (float3)(dot(from_eye, eye->right), dot(from_eye, eye->up), dot(from_eye, eye->forward));
+    return (float3)(along(from_eye, eye->right), along(from_eye, eye->up), along(from_eye, eye->forward));
 }
 
 /// Offsets X between which a point with x < X w lies to the left of all of the triangle, or right of it.
@@ -76,26 +78,25 @@ INLINE bool all_beyond(float limit, float a, float b, float c, float wa, float w
 /// The pixels from *first to *last of `count` whose offsets 2 i + 1 - count + jitter are from `low` to `high`, or a little
 /// outside.
 INLINE void pixels_between(float low, float high, int count, float jitter, int* first, int* last) {
-    const float middle = (float)(count - 1) - jitter;
-    const float margin = EDGE_SLACK * (fmin(fmax(fabs(low), fabs(high)), (float)count) + (float)count);
-    *first = (int)clamp(ceil(0.5f * (low + middle - margin)), 0.0f, (float)count);
-    *last = (int)clamp(floor(0.5f * (high + middle + margin)), -1.0f, (float)(count - 1));
+    const float middle = (float)(count - 1) - jitter, margin = 2.0f * EDGE_SLACK * (float)count;
+    const float most = (float)count;
+    *first = (int)ceil(LESSER(GREATER(0.5f * (low + middle - margin), 0.0f), most));
+    *last = (int)floor(LESSER(GREATER(0.5f * (high + middle + margin), -1.0f), most - 1.0f));
 }
 
 /// Fills corners and bounds from what seen_from says of the vertices. False for a triangle that no pixel shows.
 INLINE bool place_on_screen(global const CameraRecord* camera, const Window* window, const float3* seen,
                             ScreenTriangle* triangle) {
-    const float nearest = fmin(fmin(seen[0].z, seen[1].z), seen[2].z), farthest = fmax(fmax(seen[0].z, seen[1].z), seen[2].z);
+    const float nearest = LESSER(LESSER(seen[0].z, seen[1].z), seen[2].z);
+    const float farthest = GREATER(GREATER(seen[0].z, seen[1].z), seen[2].z);
     if (!(farthest > 0.0f)) return false;
     // Distances are at least depths; less far more than all roundings.
     triangle->nearest = nearest - 0x1p-10f * farthest;
-    float x[3], y[3], w[3], largest = 0.0f;
+    float x[3], y[3], w[3];
     for (int i = 0; i < 3; ++i) {
         x[i] = seen[i].x;
         y[i] = seen[i].y;
         w[i] = camera->perspective ? seen[i].z : 1.0f;
-        largest = fmax(largest, fmax(fmax(fabs(x[i]), fabs(y[i])), fabs(w[i])));
-        if (!(fabs(x[i]) <= 0x1p120f && fabs(y[i]) <= 0x1p120f && fabs(w[i]) <= 0x1p120f)) return false;
     }
     float low = -INFINITY, high = INFINITY, down = -INFINITY, upward = INFINITY;
     if (!camera->perspective || nearest > 0.0f) {
@@ -115,6 +116,11 @@ INLINE bool place_on_screen(global const CameraRecord* camera, const Window* win
     triangle->top = max(triangle->top, window->top);
     triangle->bottom = min(triangle->bottom, window->bottom);
     if (triangle->left > triangle->right || triangle->top > triangle->bottom) return false;
+    float largest = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+        largest = fmax(largest, fmax(fmax(fabs(x[i]), fabs(y[i])), fabs(w[i])));
+        if (!(fabs(x[i]) <= 0x1p120f && fabs(y[i]) <= 0x1p120f && fabs(w[i]) <= 0x1p120f)) return false;
+    }
     // A power of two, the largest coordinate's, so that products of two neither overflow nor, of all but nothing, underflow.
     const float scale = as_float((254u - clamp(as_uint(largest) >> 23, 1u, 253u)) << 23);
     for (int i = 0; i < 3; ++i) {
