@@ -85,6 +85,13 @@ std::uint32_t top_of(std::vector<std::uint32_t> values) {
     return *rank;
 }
 
+/// The value that `share` of the elements do not pass.
+double percentile(std::vector<double>& values, double share) {
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), rank, values.end());
+    return *rank;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& options) {
@@ -104,6 +111,19 @@ std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& opti
         for (int c = 0; c < 3; ++c) rgb.push_back(srgb_byte(colour[c]));
     }
     return rgb;
+}
+
+float suitable_exposure(const Image& image) {
+    const auto &r = channel<float>(image, "R"), &g = channel<float>(image, "G"), &b = channel<float>(image, "B");
+    std::vector<double> lit;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        const double luminance = 0.2126 * double{r[i]} + 0.7152 * double{g[i]} + 0.0722 * double{b[i]};
+        if (luminance > 0.0 && std::isfinite(luminance)) lit.push_back(luminance);
+    }
+    if (lit.empty()) return 0.0f;
+    constexpr double middle = 0.3;
+    return static_cast<float>(std::log2(middle) -
+                              0.5 * (std::log2(percentile(lit, 0.5)) + std::log2(percentile(lit, 0.9))));
 }
 
 HeatMap cost_preview(const Image& image) {

@@ -128,6 +128,10 @@ struct PreviewOptions {
 /// The channels R, G, B of `image` as 8-bit sRGB, 3 * width * height bytes. Throws InputError without them.
 std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& options = {});
 
+/// The exposure that suits `image`: the geometric mean of the median and the 90th percentile of the luminance of its pixels that
+/// have any becomes 0.3. 0 for a black picture. Throws InputError without R, G and B. O(pixels).
+float suitable_exposure(const Image& image);
+
 /// A heat map of the channel "cost.volumes" as 8-bit sRGB, 3 * width * height bytes.
 struct HeatMap {
     std::vector<std::uint8_t> rgb;

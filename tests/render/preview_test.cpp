@@ -98,3 +98,19 @@ TEST_CASE("preview: one expensive pixel does not darken the others; no cost at a
     CHECK(cost_preview(costs({})).rgb.empty());
     CHECK_THROWS_AS(cost_preview(Image{}), InputError);
 }
+
+TEST_CASE("preview: the suitable exposure follows the light, not the darkness around it") {
+    const auto grey = [](std::vector<float> values) {
+        return Image{static_cast<std::uint32_t>(values.size()), 1, {{"R", values}, {"G", values}, {"B", values}}};
+    };
+    CHECK(suitable_exposure(grey({0.3f, 0.3f, 0.3f})) == doctest::Approx(0.0).epsilon(1e-6));
+    // Eleven lit pixels: the median is 0.03, the 90th percentile 3. Black pixels and what is not finite do not count.
+    std::vector<float> values = {0.01f, 0.01f, 0.02f, 0.02f, 0.02f, 0.03f, 0.3f, 1.0f, 2.0f, 3.0f, 1e30f};
+    CHECK(suitable_exposure(grey(values)) == doctest::Approx(0.0).epsilon(1e-6));
+    values.insert(values.end(), {0.0f, 0.0f, 0.0f, std::numeric_limits<float>::infinity()});
+    CHECK(suitable_exposure(grey(values)) == doctest::Approx(0.0).epsilon(1e-6));
+    for (float& value : values) value *= 0x1p-9f;
+    CHECK(suitable_exposure(grey(values)) == doctest::Approx(9.0));
+    CHECK(suitable_exposure(grey({0.0f, 0.0f})) == 0.0f);
+    CHECK_THROWS_AS(suitable_exposure(Image{}), InputError);
+}
