@@ -18,8 +18,8 @@ typedef Triangle leaf_t;
 #error "define FLATTENED (0 or 1) and GROUP_SIZE"
 #endif
 
-// A pixel that is the triangle's though the ray test, by rounding, finds the ray beside it takes its point from the edge functions.
-// Its distance is made this much longer, so that where the test gives the pixel to the neighbour, the neighbour keeps it.
+// A pixel that is the triangle's though the ray test, by rounding, finds the ray beside it, takes its point from the edge
+// functions. Its distance is made this much longer, so that where the test gives the pixel to the neighbour, the neighbour keeps it.
 #define BESIDE 0x1p-16f
 
 /// The first of the ascending `keys` that is not below `key`.
@@ -41,14 +41,15 @@ INLINE void interpolate(const LocalRay* ray, global const Triangle* surface, con
     const float sum = weight.x + weight.y + weight.z;
     crossing->u = weight.y / sum;
     crossing->v = fmin(weight.z / sum, 1.0f - crossing->u);
-    const float3 point = vload3(0, surface->v0) + crossing->u * vload3(0, surface->edge1) + crossing->v * vload3(0, surface->edge2);
+    const float3 within = crossing->u * vload3(0, surface->edge1) + crossing->v * vload3(0, surface->edge2);
+    const float3 point = vload3(0, surface->v0) + within;
     const float3 direction = scaled_by_largest(ray->direction);
     const float largest = fmax(fmax(fabs(ray->direction.x), fabs(ray->direction.y)), fabs(ray->direction.z));
     crossing->t = dot(point - ray->origin, direction) / dot(direction, direction) / largest * (1.0f + BESIDE);
 }
 
-/// Puts the triangle into the pixel of `ray` at offset (x, y) if it is there and nearest. Triangles come in ascending order, so that
-/// of equal distances the first is kept, as in traversal.
+/// Puts the triangle into the pixel of `ray` at offset (x, y) if it is there and nearest. Triangles come in ascending order, so
+/// that of equal distances the first is kept, as in traversal.
 INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, global const Ray* ray, float x,
                        float y, const float* value, global Hit* hit) {
     const float4 origin = vload4(0, ray->origin), direction = vload4(0, ray->direction);

@@ -62,7 +62,7 @@ INLINE float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
     return (float3)(along(from_eye, eye->right), along(from_eye, eye->up), along(from_eye, eye->forward));
 }
 
-/// Offsets X between which a point with x < X w lies to the left of all of the triangle, or right of it.
+/// The least and the greatest of a / w, that is the offsets at which corners in front of the eye are seen.
 INLINE void bound_ratio(float a, float b, float c, float wa, float wb, float wc, float* low, float* high) {
     const float ra = a / wa, rb = b / wb, rc = c / wc;
     *low = LESSER(LESSER(ra, rb), rc);
@@ -149,8 +149,8 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
     }
 }
 
-/// Decides exactly whether the pixel is the triangle's, which all three edges then have on the same side: 1 or -1 by the side that
-/// the triangle shows, 0 when it is not.
+/// Decides exactly whether the pixel is the triangle's, which all three edges then have on the same side: 1 or -1 by the side
+/// that the triangle shows, 0 when it is not.
 inline int side_shown(global const ScreenTriangle* triangle, float x, float y) {
     int sides = 0;
     for (int i = 0; i < 3 && abs(sides) == (uint)i; ++i) {

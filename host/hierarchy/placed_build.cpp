@@ -86,10 +86,6 @@ std::vector<std::uint32_t> first_triangles(const Scene& scene) {
     return first;
 }
 
-bool is_flat(const Scene& scene) {
-    return scene.meshes.size() == 1 && scene.instances.size() == 1 && scene.instances[0].transform == glm::mat4(1.0f);
-}
-
 /// `placed` is the scene itself for two levels, flattened for one.
 Tree build_placed(Device& device, const Scene& placed, const BuildOptions& options, bool two_levels,
                   BuildParts& parts) {
@@ -110,6 +106,10 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
 }
 
 } // namespace
+
+bool is_flat(const Scene& scene) {
+    return scene.meshes.size() == 1 && scene.instances.size() == 1 && scene.instances[0].transform == glm::mat4(1.0f);
+}
 
 Tree empty_tree(const BuildOptions& options) {
     Tree tree;

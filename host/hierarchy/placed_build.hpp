@@ -26,6 +26,9 @@ struct BuildParts {
 /// volumes.
 Tree empty_tree(const BuildOptions& options);
 
+/// True when the scene is its own flattened form: one mesh, placed once without a transform.
+bool is_flat(const Scene& scene);
+
 /// The tree of a scene with instances, but for first_triangles. Flattens where one level needs it. Waits.
 Tree build_tree(Device& device, const Scene& scene, const BuildOptions& options, BuildParts& parts);
 

@@ -9,6 +9,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/radix_sort.hpp"
 #include "boxwood/scan.hpp"
+#include "hierarchy/placed_build.hpp"
 #include "runtime/launch.hpp"
 #include "shared/raster.h"
 
@@ -68,9 +69,7 @@ Rasteriser::Rasteriser(Device& device, const Scene& scene, const Tree& tree, con
     placed_ = before.back();
     first_placed_ = upload(device, before, "placed triangles");
     flattened_ = tree.levels == Levels::one;
-    const bool flat =
-        scene.meshes.size() == 1 && scene.instances.size() == 1 && scene.instances[0].transform == glm::mat4(1.0f);
-    if (flattened_ && !flat && placed_ != 0) flat_ = upload(device, flatten(scene));
+    if (flattened_ && placed_ != 0 && !is_flat(scene)) flat_ = upload(device, flatten(scene));
 }
 
 void Rasteriser::draw(BufferView<const CameraRecord> camera, std::uint32_t width, std::uint32_t height,
