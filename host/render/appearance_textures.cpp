@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/appearance_textures.hpp"
 
+#include <new>
 #include <span>
 
 #include "boxwood/error.hpp"
@@ -84,16 +85,22 @@ void TextureSet::set_record(std::size_t index) {
 void TextureSet::decode(Device& device, BufferView<std::uint32_t> texels, std::vector<std::string>& warnings) {
     for (Source& source : sources_) {
         std::vector<std::uint32_t> levels{grey_texel};
-        if (!source.replaced) {
-            try {
+        const auto replace = [&](const std::string& reason) {
+            warnings.push_back(label(scene_, source.image) + ": " + reason + "; shown as grey");
+            source.replaced = true;
+            source.size = {1, 1};
+            source.mean = grey_mean;
+        };
+        try {
+            if (!source.replaced) {
                 const Picture picture = decode_picture(scene_.images[source.image]);
                 source.mean = mean_color(picture, source.srgb);
                 levels = texture_levels(picture, source.srgb);
-            } catch (const InputError& error) {
-                warnings.push_back(label(scene_, source.image) + ": " + error.what() + "; shown as grey");
-                source.replaced = true;
-                source.size = {1, 1};
             }
+        } catch (const InputError& error) {
+            replace(error.what());
+        } catch (const std::bad_alloc&) {
+            replace("needs more memory than there is");
         }
         write(device, std::span<const std::uint32_t>(levels), texels, source.first_texel);
     }
