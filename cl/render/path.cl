@@ -11,6 +11,7 @@
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=1 STRATEGY=2 SAMPLER=2
 // compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=1 ENVIRONMENT=0 STRATEGY=2 SAMPLER=2
 #include "render/path.h"
+#include "render/path_sum.h"
 
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
@@ -75,10 +76,6 @@ INLINE bool follow(const PathWorld* world, const PathSettings* settings, global 
     gathered->shadow *= throughput;
 #endif
     return scatter_path(&vertex, settings, &sampler, dimension, choice.y, width, path, ray);
-}
-
-INLINE void add_light(float3 light, global float* sum) {
-    if (usable(light)) vstore3(vload3(0, sum) + light, 0, sum);
 }
 
 INLINE void load_ray(global const Ray* from, PathRay* ray) {
@@ -175,7 +172,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
         const uint bounces = path.counts & 0xffffu;
         Gathered gathered;
         const bool goes_on = follow(&world, &settings, camera, hits[i], &path, &ray, &gathered);
-        add_light(gathered.light, (bounces <= 1 ? direct : indirect) + 3 * (size_t)path.pixel);
+        if (usable(gathered.light)) add_light(gathered.light, (bounces <= 1 ? direct : indirect) + 3 * (size_t)path.pixel);
 #if NEXT_EVENT
         store_shadow(&gathered, path.pixel, bounces > 0, shadow_rays + i, shadow_lights + i);
 #endif

@@ -5,15 +5,15 @@
 // GROUP_SIZE  work-items per work-group.
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
 // compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2
+#include "render/path_sum.h"
 #include "render/shading_point.h"
-#include "shared/path.h"
 
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
 #endif
 
 /// The share of light that the surface at a hit lets pass; textures at their finest.
-inline float passed_share(const SceneArrays* scene, Hit hit) {
+INLINE float passed_share(const SceneArrays* scene, Hit hit) {
     Place place;
     place_of(scene, hit, &place);
 #if UV_SETS
@@ -41,9 +41,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows
         if (light.pixel == BOXWOOD_NONE) continue;
         const Hit hit = hits[i];
         if (hit.primitive == BOXWOOD_NONE) {
-            const size_t pixel = light.pixel & ~BOXWOOD_INDIRECT;
-            global float* sum = (light.pixel & BOXWOOD_INDIRECT ? indirect : direct) + 3 * pixel;
-            vstore3(vload3(0, sum) + vload3(0, light.value), 0, sum);
+            add_shadow_light(lights + i, direct, indirect);
             continue;
         }
         const float passed = passed_share(&scene, hit);

@@ -5,8 +5,7 @@
 // RECORD      what goes with a ray: PathState or ShadowLight
 // compile: RECORD=PathState
 // compile: RECORD=ShadowLight
-#include "runtime/numerics.h"
-#include "shared/path.h"
+#include "render/path_sum.h"
 #include "shared/ray.h"
 
 #if !defined(GROUP_SIZE) || !defined(RECORD)
@@ -22,10 +21,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void add_unblocke
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        const uint pixel = lights[i].pixel;
-        if (pixel == BOXWOOD_NONE || blocked[i] != 0) continue;
-        global float* sum = (pixel & BOXWOOD_INDIRECT ? indirect : direct) + 3 * (size_t)(pixel & ~BOXWOOD_INDIRECT);
-        vstore3(vload3(0, sum) + vload3(0, lights[i].value), 0, sum);
+        if (lights[i].pixel != BOXWOOD_NONE && blocked[i] == 0)
+            add_shadow_light(lights + i, direct, indirect);
     }
 }
 

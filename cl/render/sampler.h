@@ -83,7 +83,7 @@ INLINE uint floor_root(uint x) {
 /// A point in [0, 1)^2 for the integral number `dimension` of the sample.
 INLINE float2 sample_square(const Sampler* sampler, uint dimension) {
 #if SAMPLER == 0
-    const ulong bits = random_bits(sampler->key, sampler->sample * 0x10000u + dimension);
+    const ulong bits = random_bits(random_bits(sampler->key, sampler->sample), dimension);
     return (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));
 #else
     const ulong of_dimension = random_bits(sampler->key, dimension);

@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "boxwood/build.hpp"
 #include "boxwood/geometry.hpp"
@@ -109,7 +111,7 @@ TEST_CASE(
         }
     const Mesh sphere = sphere_mesh(small_sizes() ? 6 : 24, false);
     std::size_t rays = 0, by_steps[3] = {0, 0, 0};
-    for (const int k : {-40, -20, -8, 0, 8, 20, 40})
+    for (const int k : small_sizes() ? std::vector<int>{-40, 40} : std::vector<int>{-40, -20, -8, 0, 8, 20, 40})
         for (const float offset : {0.0f, 16.0f, 1024.0f})
             for (const bool by_transform : {false, true}) {
                 CAPTURE(k);
