@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // boxwood-benchmark-noise: how far pictures of few samples are from one of many, by sampler, hemisphere and strategy, over samples
 // and over time; and what share of the time each stage has.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -54,7 +55,7 @@ struct Settings {
 
 struct Point {
     std::uint32_t samples;
-    double error; ///< Root of the mean square over pixels and channels, over the mean of the reference.
+    double error; ///< See relative_error.
     double ms;    ///< Device time of the light, primary rays included.
 };
 
@@ -128,7 +129,8 @@ std::vector<Study> studies(const Settings& settings) {
     return all;
 }
 
-double root_mean_square(const test::Picture& picture, const test::Picture& reference) {
+/// Root of the mean square of the difference over pixels and channels, over the mean of the reference.
+double relative_error(const test::Picture& picture, const test::Picture& reference) {
     double square = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < picture.direct.size(); ++i) {
         square += std::pow(picture.light(i) - reference.light(i), 2.0);
@@ -144,10 +146,15 @@ std::vector<Point> measure(Device& device, const test::LitScene& lit, const Stud
     std::vector<Point> points;
     take_picture(device, lit, study.camera, frame, options_of(contender, 1, settings.depth, 1)); // compiles
     for (std::uint32_t samples = 1; samples <= settings.most_samples; samples *= 2) {
+        // Of few samples several pictures, so that bright outliers do not decide.
+        const std::uint32_t pictures = std::clamp(settings.most_samples / samples, 2u, 16u);
+        double square = 0.0;
         device.take_profile();
-        const test::Picture picture =
-            take_picture(device, lit, study.camera, frame, options_of(contender, samples, settings.depth, samples));
-        points.push_back({samples, root_mean_square(picture, reference), device.take_profile().total_ms()});
+        for (std::uint32_t i = 0; i < pictures; ++i) {
+            const LightOptions options = options_of(contender, samples, settings.depth, 100 * samples + i);
+            square += std::pow(relative_error(take_picture(device, lit, study.camera, frame, options), reference), 2.0);
+        }
+        points.push_back({samples, std::sqrt(square / pictures), device.take_profile().total_ms() / pictures});
     }
     return points;
 }
