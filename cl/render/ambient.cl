@@ -62,7 +62,7 @@ inline bool vertex_at(const SceneArrays* scene, global const CameraRecord* camer
 #if TEXTURES
     // A diffuse ray stands for one of so many parts of the hemisphere.
     if (first)
-        camera_beam(camera, direction, hit.t, samples, &beam);
+        pixel_beam(camera, direction, hit.t, 1.0f / sqrt((float)samples), &beam);
     else
         cone_beam(direction, hit.t * fmin(sqrt(M_PI_F / (float)samples), 1.0f), &beam);
 #else

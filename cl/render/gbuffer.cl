@@ -46,7 +46,7 @@ inline void find_pixel(const SceneArrays* scene, global const CameraRecord* came
 #endif
 #if HAS_BEAMS
     Beam beam;
-    pixel_beam(camera, ray, hit.t, share, &beam);
+    pixel_beam(camera, vload3(0, ray.direction), hit.t, share, &beam);
     place_beam(scene, vload3(0, ray.direction), hit, beam, &place);
 #endif
 #if PLANES & 7

@@ -43,7 +43,7 @@ INLINE bool follow(const PathWorld* world, const PathSettings* settings, global 
     const float width = fma(path->spread, hit.t, path->width);
 #if TEXTURES
     if (bounces == 0)
-        camera_beam(camera, direction, hit.t, settings->samples, &beam);
+        pixel_beam(camera, direction, hit.t, 1.0f / sqrt((float)settings->samples), &beam);
     else
         cone_beam(direction, width, &beam);
 #else

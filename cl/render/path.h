@@ -9,8 +9,8 @@
 #include "render/bsdf.h"
 #include "render/environment.h"
 #include "render/lights.h"
+#include "render/pixel_beam.h"
 #include "render/sampler.h"
-#include "shared/camera.h"
 #include "shared/path.h"
 
 #if !defined(STRATEGY) || !defined(LIGHTS) || !defined(EMISSION)
@@ -82,14 +82,6 @@ INLINE bool usable(float3 c) {
 INLINE float power_heuristic(float pdf, float other) {
     const float ratio = other / pdf;
     return 1.0f / (1.0f + ratio * ratio);
-}
-
-/// The beam of a camera's pixel, or of one of its samples, after distance t.
-INLINE void camera_beam(global const CameraRecord* camera, float3 direction, float t, uint samples, Beam* beam) {
-    const float along = camera->perspective ? t * dot(direction, vload3(0, camera->forward)) : 1.0f;
-    const float scale = 2.0f * along / sqrt((float)samples);
-    beam->x = vload3(0, camera->right) * scale;
-    beam->y = vload3(0, camera->up) * scale;
 }
 
 /// Tangents of Duff et al. 2017, which need no branch and lose no digits near any pole.

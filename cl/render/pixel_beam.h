@@ -5,11 +5,11 @@
 #include "render/shading_point.h"
 #include "shared/camera.h"
 
-/// Where the camera's ray meets a surface at distance t, `share` of a pixel wide. The directions are between rays that are not
+/// Where the camera's ray along `direction` meets a surface at distance t, `share` of a pixel wide. The directions are between rays that are not
 /// normalised, so that the image plane lies along the camera's axis.
-inline void pixel_beam(global const CameraRecord* camera, Ray ray, float t, float share, Beam* beam) {
+INLINE void pixel_beam(global const CameraRecord* camera, float3 direction, float t, float share, Beam* beam) {
     float width = 2.0f * share;
-    if (camera->perspective) width *= t * dot(vload3(0, ray.direction), vload3(0, camera->forward));
+    if (camera->perspective) width *= t * dot(direction, vload3(0, camera->forward));
     beam->x = width * vload3(0, camera->right);
     beam->y = width * vload3(0, camera->up);
 }
