@@ -84,7 +84,8 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
                             float probability, LightSample* sample) {
     const float root = sqrt(u.x);
     const Hit place = {1.0f, root * (1.0f - u.y), root * u.y, light->primitive, light->instance};
-    const float3 point = vload3(0, light->position) + (place.u * vload3(0, light->edges[0]) + place.v * vload3(0, light->edges[1]));
+    const float3 along = place.u * vload3(0, light->edges[0]) + place.v * vload3(0, light->edges[1]);
+    const float3 point = vload3(0, light->position) + along;
     const float3 front = vload3(0, light->direction);
     const bool behind = dot(front, origin - point) < 0.0f;
     const float3 normal = behind ? -front : front;
