@@ -4,7 +4,6 @@
 #define BOXWOOD_RENDER_RANDOM_H
 #include "runtime/inline.h"
 
-
 /// A bijection of 64 bits in which every input bit reaches every output bit: shifts by half the word and odd factors
 /// with the constants of Stafford's variant 13 of the MurmurHash3 finaliser, as in splitmix64 (Steele et al. 2014).
 INLINE ulong mix_bits(ulong z) {

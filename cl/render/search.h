@@ -4,7 +4,6 @@
 #define BOXWOOD_RENDER_SEARCH_H
 #include "runtime/inline.h"
 
-
 /// Chooses one of `count` > 0 elements: element i with the probability distribution[i + 1] - distribution[i], where the
 /// `count` + 1 values ascend from 0 to 1. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(log count).
 INLINE uint choose(global const float* distribution, uint count, float* u, float* probability) {
