@@ -7,6 +7,7 @@
 
 #include "boxwood/rays.hpp"
 #include "boxwood/render.hpp"
+#include "boxwood/requirements.hpp"
 #include "cli/input.hpp"
 #include "cli/light.hpp"
 #include "cli/render_work.hpp"
@@ -188,8 +189,8 @@ void run(const Arguments& arguments) {
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
     const Camera camera = choose_camera(input, arguments.view);
-    const Surroundings around =
-        surroundings(arguments.environment, shading_requirements(input.scene), options.light.integrator);
+    const ShadingRequirements needs = shading_requirements(input.scene);
+    const Surroundings around = surroundings(arguments.environment, needs, options.light.integrator);
     if (!arguments.ao_distance) options.ao_distance = default_ao_distance(input.scene);
     progress.step("building");
     const Prepared prepared = prepare(device, input, arguments.choice);
@@ -201,10 +202,12 @@ void run(const Arguments& arguments) {
     }
     const Result result = render_pictures(device, arguments, options, render, progress);
 
-    const bool statistics = std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end();
-    Json report = base_report(device, input, prepared,
-                              statistics ? std::vector<std::string>{"statistics"} : std::vector<std::string>{});
-    for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
+    std::vector<std::string> query = words(needs);
+    if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
+        query.push_back("statistics");
+    Json report = base_report(device, input, prepared, query);
+    for (const std::vector<std::string>* warnings : {&render.warnings(), &around.warnings})
+        for (const std::string& warning : *warnings) report["scene"]["warnings"].push_back(warning);
     report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;
     report["render"] = result.report;

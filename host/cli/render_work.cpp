@@ -54,11 +54,13 @@ RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, c
     RenderWork work{render.samples(), render.samples(), 0.0, false};
     const auto start = Clock::now();
     auto saved = start;
+    const double compiled_before = device.compile_ms();
+    const auto seconds = [&] { return seconds_since(start) - 1e-3 * (device.compile_ms() - compiled_before); };
     progress.skip(work.resumed);
     while (!render.done() && !guard.interrupted()) {
         const std::uint32_t taken = work.samples - work.resumed;
         const std::string left =
-            taken == 0 ? "" : ", " + duration(seconds_since(start) / taken * (samples - work.samples)) + " left";
+            taken == 0 ? "" : ", " + duration(seconds() / taken * (samples - work.samples)) + " left";
         progress.step("sample " + std::to_string(work.samples + 1) + " of " + std::to_string(samples) + left);
         render.advance();
         device.finish();
@@ -68,7 +70,7 @@ RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, c
             saved = Clock::now();
         }
     }
-    work.ms = 1e3 * seconds_since(start);
+    work.ms = 1e3 * seconds();
     work.interrupted = !render.done();
     if (work.interrupted) save_checkpoint(render, checkpoints.file);
     return work;

@@ -21,7 +21,7 @@ struct Checkpoints {
 struct RenderWork {
     std::uint32_t resumed = 0; ///< Samples that a checkpoint brought.
     std::uint32_t samples = 0; ///< Those and the ones taken.
-    double ms = 0.0;           ///< For those taken.
+    double ms = 0.0;           ///< For those taken, without the compilation of programs.
     bool interrupted = false;
 };
 

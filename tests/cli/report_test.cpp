@@ -84,6 +84,8 @@ TEST_CASE("report: the keys of every command") {
         CHECK(render["options"]["aovs"] == Json{"depth", "cost"});
         CHECK(has_word(render["requirements"], "two-levels"));
         CHECK(has_word(render["requirements"], "statistics"));
+        CHECK(has_word(render["requirements"], "materials"));
+        CHECK_FALSE(has_word(render["requirements"], "textures"));
         check_keys(render["render"], {"image", "preview", "ms", "samples", "resumed_samples", "samples_per_s",
                                       "rejected_samples", "interrupted", "stages_ms", "trace_share"});
         CHECK(render["render"]["samples"] == 2);
