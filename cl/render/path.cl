@@ -119,7 +119,8 @@ INLINE void store_shadow(const Gathered* gathered, uint pixel, bool indirect, gl
         store_ray(&gathered->shadow_ray, ray);
         vstore3(gathered->shadow, 0, light->value);
     } else {
-        vstore3((float3)(0.0f), 0, ray->direction);
+        const PathRay none = {(float3)(0.0f), (float3)(0.0f), 0.0f, 0.0f};
+        store_ray(&none, ray);
     }
 }
 #endif
