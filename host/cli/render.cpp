@@ -26,7 +26,7 @@ struct Arguments {
     View view;
     std::string environment;
     std::vector<std::string> aovs;
-    float exposure = 0.0f;
+    std::optional<float> exposure;    ///< Of its own accord what suits the picture.
     std::optional<float> ao_distance; ///< > 0
     std::optional<double> checkpoint_seconds;
     bool resume = false;
@@ -78,7 +78,9 @@ void save_preview(const Arguments& arguments, Integrator integrator, const Image
         return;
     }
     const bool light = integrator != Integrator::ao && integrator != Integrator::normals;
-    const PreviewOptions options{light ? arguments.exposure : 0.0f, light};
+    PreviewOptions options{0.0f, light};
+    if (light)
+        report["exposure"] = options.exposure = arguments.exposure ? *arguments.exposure : suitable_exposure(image);
     save_png(arguments.preview(), image.width, image.height, preview(image, options));
 }
 
@@ -230,7 +232,8 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
                    "World units at which a surface occludes by e^-1, for ambient and ao (default: a tenth of the "
                    "scene's diagonal)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--exposure", arguments.exposure, "Stops by which the preview is brighter (default: 0)")
+    app.add_option("--exposure", arguments.exposure,
+                   "Stops by which the preview is brighter (default: what suits the picture)")
         ->check(CLI::Range(-64.0f, 64.0f))
         ->type_name("STOPS");
     std::vector<std::string> names = {"all"};
