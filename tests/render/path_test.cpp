@@ -50,7 +50,9 @@ Light punctual(LightKind kind) {
     return light;
 }
 
-constexpr std::uint32_t quad_across = 16;
+std::uint32_t across(std::uint32_t pixels) { return small_sizes() ? 4 : pixels; }
+
+const std::uint32_t quad_across = 16;
 
 Estimate quad_estimate(Strategy strategy, SamplerKind sampler, const LitScene& lit, float half) {
     LightOptions options;
@@ -175,7 +177,7 @@ TEST_CASE("path: a white sphere in a white world cannot be seen") {
             options.strategy = strategy;
             options.samples = small_sizes() ? 4 : 16;
             options.seed = test_seed();
-            const Estimate found = estimate(test_device(), lit, camera, {32, 32}, options, 6);
+            const Estimate found = estimate(test_device(), lit, camera, {across(32), across(32)}, options, 6);
             CHECK(std::abs(found.mean - 1.0) < 3 * found.error + (small_sizes() ? 0.1 : 1e-3));
             CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
         }
@@ -196,7 +198,7 @@ TEST_CASE("path: white metal in a white world loses what single scattering loses
             LightOptions options;
             options.samples = small_sizes() ? 4 : 16;
             options.seed = test_seed();
-            const Estimate found = estimate(test_device(), lit, camera, {24, 24}, options, 6);
+            const Estimate found = estimate(test_device(), lit, camera, {across(24), across(24)}, options, 6);
             const double expected = ggx_albedo(cosine, std::max(std::pow(double(roughness), 2), 0x1p-13), 256);
             CHECK(std::abs(found.mean - expected) < 3 * found.error + (small_sizes() ? 0.1 : 2e-3));
             CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
@@ -221,7 +223,7 @@ TEST_CASE("path: a closed white room returns what its lamp gives, bounce by boun
         options.samples = small_sizes() ? 4 : 16;
         options.depth = depth;
         options.seed = test_seed();
-        const Estimate found = estimate(test_device(), lit, camera, {16, 16}, options, 6);
+        const Estimate found = estimate(test_device(), lit, camera, {across(16), across(16)}, options, 6);
         CHECK(std::abs(found.mean - (2.0 - std::exp2(-double(depth)))) < 3 * found.error + 1e-3);
         options.strategy = Strategy::bsdf;
         const Picture picture = take_picture(test_device(), lit, camera, {8, 8}, options);
@@ -278,6 +280,6 @@ TEST_CASE("path: seen through what lets light pass") {
     options.samples = 16;
     options.depth = 0;
     options.seed = test_seed();
-    const Estimate found = estimate(test_device(), lit, camera_above(1.0f), {16, 16}, options, 8);
+    const Estimate found = estimate(test_device(), lit, camera_above(1.0f), {across(16), across(16)}, options, 8);
     CHECK(std::abs(found.mean - 1.25) < 3 * found.error + 1e-3);
 }
