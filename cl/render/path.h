@@ -238,8 +238,10 @@ INLINE bool scatter_path(const Vertex* vertex, const PathSettings* settings, con
     if (!(largest > 0.0f) || !usable(throughput)) return false;
     path->counts += 1;
     if ((path->counts & 0xffffu) >= ROULETTE_BOUNCE && largest < 1.0f) {
-        if (sample_square(sampler, dimension + ROULETTE_DIMENSION).x >= largest) return false;
-        throughput /= largest;
+        // A multiple of the spacing of samples, so that it is the chance to survive; and not so small that few carry much.
+        const float survival = GREATER(ceil(largest * 0x1p24f) * 0x1p-24f, 0x1p-4f);
+        if (sample_square(sampler, dimension + ROULETTE_DIMENSION).x >= survival) return false;
+        throughput /= survival;
     }
     path->throughput = throughput;
     path->pdf = pdf;

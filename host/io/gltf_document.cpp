@@ -79,6 +79,7 @@ nlohmann::json take_looks(nlohmann::json& root) {
     if (root.contains("/extensions/KHR_lights_punctual/lights"_json_pointer))
         looks["lights"] = std::move(root["extensions"]["KHR_lights_punctual"]["lights"]);
     root.erase("extensions");
+    looks["required"] = root.value("extensionsRequired", nlohmann::json::array());
     return looks;
 }
 

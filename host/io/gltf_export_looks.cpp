@@ -21,9 +21,10 @@ struct Scaled {
 Scaled scaled(const glm::vec3& value) {
     const float largest = std::max({value.x, value.y, value.z});
     if (largest <= 1.0f) return {value, 1.0f};
+    // The largest radiance is a power of two, and so is its strength then.
     int exponent = 0;
-    std::frexp(largest, &exponent);
-    const float strength = std::ldexp(1.0f, exponent);
+    const float fraction = std::frexp(largest, &exponent);
+    const float strength = std::ldexp(1.0f, fraction == 0.5f ? exponent - 1 : exponent);
     return {value / strength, strength};
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_materials.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "boxwood/error.hpp"
@@ -19,6 +23,10 @@ using nlohmann::json;
 constexpr Range share{0.0f, 1.0f};
 constexpr Range any{-largest_coordinate, largest_coordinate};
 
+constexpr std::array<std::string_view, 7> read_extensions{
+    "KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_emissive_strength", "KHR_texture_transform",
+    "KHR_lights_punctual", "KHR_mesh_quantization",  "EXT_mesh_gpu_instancing"};
+
 /// Places in the scene of what the file has, by index in the file.
 using Places = std::vector<std::optional<std::uint32_t>>;
 
@@ -28,6 +36,7 @@ public:
         : document_(document), looks_(document.looks), scene_(scene), warnings_(warnings) {}
 
     void load() {
+        warn_of_required();
         for (std::size_t i = 0; i < looks_["images"].size(); ++i)
             images_.push_back(load_image(looks_["images"][i], element("images", i)));
         for (std::size_t i = 0; i < looks_["textures"].size(); ++i)
@@ -37,7 +46,25 @@ public:
     }
 
 private:
+    /// Extensions of looks alone never refuse a file, but what one replaces is then read in its place.
+    void warn_of_required() {
+        const json& required = looks_["required"];
+        for (std::size_t i = 0; i < required.size(); ++i) {
+            const auto& name = required[i].get_ref<const std::string&>();
+            if (std::find(read_extensions.begin(), read_extensions.end(), name) == read_extensions.end())
+                warnings_.add(element("extensionsRequired", i), name + " is not read; what is there without it is");
+        }
+    }
+
+    /// Elements that name the same bytes share one image.
     std::optional<std::uint32_t> load_image(const json& from, const std::string& where) {
+        const std::string source = from.contains("bufferView") ? "view " + std::to_string(from["bufferView"].get<int>())
+                                                               : "uri " + from.value("uri", std::string());
+        if (const auto known = sources_.find(source); known != sources_.end()) return known->second;
+        return sources_[source] = read_image(from, where);
+    }
+
+    std::optional<std::uint32_t> read_image(const json& from, const std::string& where) {
         EncodedImage image;
         image.name = from.value("name", std::string());
         try {
@@ -168,6 +195,7 @@ private:
     Warnings& warnings_;
     Places images_;
     Places textures_;
+    std::map<std::string, std::optional<std::uint32_t>> sources_; ///< By what names its bytes: an image.
 };
 
 } // namespace

@@ -65,7 +65,8 @@ glm::vec4 tangent_of(const Frame& frame, const glm::vec3& vertex_normal) {
     if (!(glm::length(tangent) > 0x1p-40)) return glm::vec4(0.0f);
     const glm::dvec3 unit = normalized(tangent);
     const double side = glm::dot(glm::cross(normal, unit), frame.bitangent);
-    return {glm::vec3(unit), side < 0.0 ? -1.0f : 1.0f};
+    // v grows downwards in a picture, the second axis of a normal texture upwards (glTF 2.0, 3.9.3).
+    return {glm::vec3(unit), side > 0.0 ? -1.0f : 1.0f};
 }
 
 /// The mesh's own tangents, and made ones where those are zero.

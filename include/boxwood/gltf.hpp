@@ -7,16 +7,19 @@
 
 namespace boxwood {
 
-/// Reads a glTF 2.0 scene (.gltf or .glb): the default scene, else scene 0, else every root node. One Mesh per glTF
-/// mesh that is used (its triangle primitives concatenated), with its attributes and materials, one Instance per node with a mesh and per
-/// EXT_mesh_gpu_instancing transform, in depth-first node order. Skins and morph targets load in rest pose with a
-/// warning. Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of looks
-/// cannot be used is replaced or left out with a warning (a picture that is missing, a number out of range). Throws InputError naming the file and the element, also for a required extension that is not supported.
+/// Reads a glTF 2.0 scene (.gltf or .glb): the default scene, else scene 0, else every root node. One Mesh per glTF mesh that
+/// is used (its triangle primitives concatenated), with its attributes and materials, one Instance per node with a mesh and
+/// per EXT_mesh_gpu_instancing transform, in depth-first node order. Skins and morph targets load in rest pose with a warning.
+/// Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of looks cannot
+/// be used is replaced or left out with a warning (a picture that is missing, a number out of range, a required extension that
+/// is not read). Throws InputError naming the file and the element, also for a required extension that changes geometry and is
+/// not supported.
 Scene load_gltf(const std::filesystem::path& file);
 
-/// Writes `scene` as binary glTF (meshes, nodes, cameras, materials, pictures, lights), atomically: on failure no file is left under
-/// `file`. Loading it again gives an equal scene, but for numbers that
-/// nothing reads, such as a cutoff without its alpha mode, and turned transforms of textures, which are rounded. Throws InputError when the file cannot be written or would pass 4 GiB.
+/// Writes `scene` as binary glTF (meshes, nodes, cameras, materials, pictures, lights), atomically: on failure no file is left
+/// under `file`. Loading it again gives an equal scene, but for numbers that nothing reads, such as a cutoff without its alpha
+/// mode, for turned transforms of textures, which are rounded, and for sheared ones, which lose the shear. Throws InputError when
+/// the file cannot be written or would pass 4 GiB.
 void save_glb(const std::filesystem::path& file, const Scene& scene);
 
 } // namespace boxwood

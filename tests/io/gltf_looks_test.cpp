@@ -174,6 +174,32 @@ TEST_CASE("a picture that is missing, unreadable or of another format is left ou
     CHECK(warns(fixture.load(), "TEXCOORD_2"));
 }
 
+TEST_CASE("elements that name the same bytes share one image") {
+    GltfFixture fixture = textured_fixture();
+    const json image = fixture.root["images"][0];
+    for (int i = 0; i < 99; ++i) {
+        fixture.root["images"].push_back(image);
+        fixture.root["textures"].push_back({{"source", i + 1}});
+    }
+    fixture.root["materials"][0]["normalTexture"] = {{"index", 99}};
+    const Scene scene = fixture.load();
+    CHECK(scene.images.size() == 1);
+    REQUIRE(scene.textures.size() == 100);
+    CHECK(scene.textures[99].image == 0);
+    CHECK(scene.materials[0].normal_texture.texture == 99);
+}
+
+TEST_CASE("a required extension of looks that is not read is named") {
+    GltfFixture fixture = textured_fixture();
+    fixture.root["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"};
+    fixture.root["materials"][0]["extensions"] = {{"KHR_materials_unlit", json::object()},
+                                                  {"KHR_materials_pbrSpecularGlossiness", json::object()}};
+    const Scene scene = fixture.load();
+    CHECK(scene.materials[0].unlit);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK(warns(scene, "extensionsRequired[1]: KHR_materials_pbrSpecularGlossiness"));
+}
+
 TEST_CASE("pictures beside the scene are read, those outside its folder are not") {
     const test::TemporaryFolder folder;
     std::filesystem::create_directory(folder.path() / "scene");

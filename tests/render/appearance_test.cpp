@@ -139,12 +139,12 @@ TEST_CASE("made tangents follow growing u, whatever the size, and v's side decid
         }
         for (const glm::vec4& t : make_tangents(scene, mesh)) {
             CHECK(glm::length(glm::vec3(t) - glm::vec3(along, 0)) < 1e-6f);
-            CHECK(t.w == 1.0f);
+            CHECK(t.w == -1.0f); // the bitangent goes against v
         }
         for (glm::vec2& uv : mesh.uvs[0]) uv.y = -uv.y;
         for (const glm::vec4& t : make_tangents(scene, mesh)) {
             CHECK(glm::length(glm::vec3(t) - glm::vec3(along, 0)) < 1e-6f);
-            CHECK(t.w == -1.0f);
+            CHECK(t.w == 1.0f);
         }
         // A vertex normal away from the triangle's: the tangent is perpendicular to it.
         mesh.normals.assign(4, glm::normalize(glm::vec3(0.5f, 0, 1)));
@@ -175,8 +175,8 @@ TEST_CASE("tangents of a mesh stay, and are made where they are zero") {
         return glm::vec4(at[0], at[1], at[2], at[3]);
     };
     CHECK(tangent(0) == glm::vec4(0, 1, 0, -1));
-    CHECK(tangent(1) == glm::vec4(1, 0, 0, 1));
-    CHECK(tangent(2) == glm::vec4(1, 0, 0, 1));
+    CHECK(tangent(1) == glm::vec4(1, 0, 0, -1));
+    CHECK(tangent(2) == glm::vec4(1, 0, 0, -1));
     CHECK(tangent(3) == glm::vec4(0, 0, 1, 1));
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("the texture's transform turns made tangents") {
     // u' = v, v' = -u: u' grows along y.
     material.normal_texture.transform = glm::mat3(0, -1, 0, 1, 0, 0, 0, 0, 1);
     const Scene scene = one_square(material);
-    for (const glm::vec4& t : make_tangents(scene, scene.meshes[0])) CHECK(t == glm::vec4(0, 1, 0, 1));
+    for (const glm::vec4& t : make_tangents(scene, scene.meshes[0])) CHECK(t == glm::vec4(0, 1, 0, -1));
 }
 
 TEST_SUITE_END();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Planes of a G-buffer against double precision.
 #include <doctest/doctest.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
 #include "io/picture.hpp"
+#include "render/appearance_scenes.hpp"
 #include "support.hpp"
 #include "traverse/scenes.hpp"
 
@@ -269,6 +271,24 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
         }
         CHECK(checked > hits.size() / 16);
         CHECK(bent > checked / 8);
+    }
+}
+
+TEST_CASE("g-buffer: green of a normal texture is up in its picture, with tangents of the file or made ones") {
+    Material bumpy;
+    bumpy.normal_texture.texture = 0;
+    Scene scene = one_square(bumpy);
+    scene.textures = {{0}};
+    scene.images = {image("bump", {1, 1}, {128, 200, 220, 255})};
+    for (glm::vec2& uv : scene.meshes[0].uvs[0]) uv.y = 1.0f - uv.y; // the picture's upper edge is the square's
+    Camera camera;
+    camera.to_world[3] = glm::vec4(0.5f, 0.5f, 2.0f, 1.0f);
+    const glm::dvec3 expected = glm::normalize(2.0 * glm::dvec3(128, 200, 220) / 255.0 - 1.0);
+    for (const bool made : {true, false}) {
+        CAPTURE(made);
+        if (!made) scene.meshes[0].tangents.assign(4, {1, 0, 0, 1}); // as exporters write them for such coordinates
+        const Planes planes = planes_of(shoot(scene, camera, 1, 1), 4, TextureFilter::nearest);
+        CHECK(glm::length(glm::dvec3(glm::make_vec3(planes.shading_normals.data())) - expected) < 1e-6);
     }
 }
 
