@@ -108,8 +108,9 @@ TEST_CASE("materials, textures, pictures, lights and attributes come back") {
     Scene scene = test::sample_scene();
     scene.counts = {};
     scene.warnings = {};
-    scene.cameras.clear();                  // what a camera's kind does not read is not kept
-    scene.meshes[1].normals[0] = {0, 0, 1}; // a zero one gives a warning
+    scene.cameras.clear();                                        // what a camera's kind does not read is not kept
+    scene.meshes[1].normals[0] = {0, 0, 1};                       // a zero one gives a warning
+    scene.materials[0].emission = {largest_radiance, 3.0f, 0.0f}; // the most there may be
     const test::TemporaryFolder folder;
     save_glb(folder.path() / "all.glb", scene);
     const Scene loaded = load_gltf(folder.path() / "all.glb");
