@@ -55,7 +55,10 @@ public:
         }
     }
 
-    LightList take() { return {std::move(records_), distribution()}; }
+    LightList take() {
+        std::vector<float> values = distribution();
+        return {std::move(records_), std::move(values)};
+    }
 
 private:
     /// By mesh, so that instances do not look for them again.
@@ -146,22 +149,32 @@ private:
         powers_.push_back(pi * mean(emission_[index]) * area * (material.double_sided ? 2.0 : 1.0));
     }
 
+    /// By power, but for what punctual lights have together: a lamp in a room may have next to nothing of the power of a sun
+    /// that does not reach it, and no reflected ray finds it.
     std::vector<float> distribution() const {
         std::vector<float> values;
         if (powers_.empty()) return values;
         double total = 0.0;
-        for (const double power : powers_) total += power;
+        std::size_t bright = 0;
+        for (std::size_t i = 0; i < powers_.size(); ++i) {
+            total += powers_[i];
+            bright += bright_punctual(i) ? 1 : 0;
+        }
         const bool even = !(total > 0.0);
+        const double spread = bright > 0 ? 0x1p-4 : 0.0;
         values.reserve(powers_.size() + 1);
         values.push_back(0.0f);
         double sum = 0.0;
         for (std::size_t i = 0; i < powers_.size(); ++i) {
-            sum += even ? 1.0 : powers_[i];
-            values.push_back(static_cast<float>(sum / (even ? static_cast<double>(powers_.size()) : total)));
+            sum += even ? 1.0 / static_cast<double>(powers_.size()) : (1.0 - spread) * powers_[i] / total;
+            if (bright_punctual(i)) sum += spread / static_cast<double>(bright);
+            values.push_back(std::min(static_cast<float>(sum), 1.0f));
         }
         values.back() = 1.0f;
         return values;
     }
+
+    bool bright_punctual(std::size_t i) const { return records_[i].kind != BOXWOOD_TRIANGLE_LIGHT && powers_[i] > 0.0; }
 
     const Scene& scene_;
     const std::vector<glm::dvec3>& emission_;

@@ -12,6 +12,17 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("render");
 
+namespace {
+
+/// With what probability light i is chosen, the first `punctual` of them being punctual.
+double share(const std::vector<double>& powers, std::size_t punctual, std::size_t i) {
+    double total = 0;
+    for (const double power : powers) total += power;
+    return 15.0 / 16.0 * powers[i] / total + (i < punctual ? 1.0 / 16.0 / static_cast<double>(punctual) : 0.0);
+}
+
+} // namespace
+
 TEST_CASE("emitting triangles are lights in world space, of instances that mirror and stretch, too") {
     Material lamp = plain_material();
     lamp.emission = {1, 2, 6};
@@ -59,10 +70,8 @@ TEST_CASE("emitting triangles are lights in world space, of instances that mirro
     REQUIRE(distribution.size() == 6);
     CHECK(distribution.front() == 0.0f);
     CHECK(distribution.back() == 1.0f);
-    double total = 0;
-    for (const double power : powers) total += power;
     for (std::size_t i = 0; i < powers.size(); ++i)
-        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(powers[i] / total).epsilon(1e-5));
+        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(share(powers, 1, i)).epsilon(1e-5));
 }
 
 TEST_CASE(
@@ -94,11 +103,10 @@ TEST_CASE(
         const double fade = std::clamp(ramp, 0.0, 1.0);
         sent += 2 * std::numbers::pi * std::sin(angle) * 2 * fade * fade * std::numbers::pi / steps;
     }
-    const double powers[] = {std::numbers::pi * 0.5, sent, std::numbers::pi * 0.5 * 2};
-    const double total = powers[0] + powers[1] + powers[2];
+    const std::vector<double> powers = {std::numbers::pi * 0.5, sent, std::numbers::pi * 0.5 * 2};
     const auto distribution = download(test_device(), appearance.light_distribution);
-    for (int i = 0; i < 3; ++i)
-        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(powers[i] / total).epsilon(1e-5));
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(share(powers, 2, i)).epsilon(1e-5));
 }
 
 TEST_CASE("a black emission texture makes no lights, and a partly black one weaker ones") {
@@ -115,8 +123,27 @@ TEST_CASE("a black emission texture makes no lights, and a partly black one weak
     REQUIRE(appearance.lights.size() == 3);
     // pi * 1/2 * 1/2 for each triangle, 4 pi / 8 for the point.
     const auto distribution = download(test_device(), appearance.light_distribution);
-    CHECK(distribution[1] == doctest::Approx(0.5));
-    CHECK(distribution[2] == doctest::Approx(0.75));
+    const std::vector<double> powers = {0.5, 0.25, 0.25};
+    CHECK(distribution[1] == doctest::Approx(share(powers, 1, 0)));
+    CHECK(distribution[2] - distribution[1] == doctest::Approx(share(powers, 1, 1)));
+}
+
+TEST_CASE("punctual lights however dim are chosen, wherever they are in the list") {
+    Scene scene = one_square(plain_material());
+    const Light sun{"sun", LightKind::directional, glm::vec3(largest_radiance)};
+    const Light dim{"dim", LightKind::point, glm::vec3(1e-30f)};
+    for (const auto& lights : {std::vector<Light>{sun, dim, dim}, {dim, sun, dim}, {dim, dim, sun}}) {
+        scene.lights = lights;
+        const auto distribution = download(test_device(), appearance_of(scene).light_distribution);
+        REQUIRE(distribution.size() == 4);
+        for (std::size_t i = 0; i < 3; ++i) CHECK(distribution[i + 1] - distribution[i] >= (1 - 1e-5) / 16 / 3);
+        CHECK(distribution[3] == 1.0f);
+    }
+    // A scene without extent gets no power from a sun.
+    scene = {};
+    scene.lights = {sun, dim, dim};
+    const auto distribution = download(test_device(), appearance_of(scene).light_distribution);
+    CHECK(distribution == std::vector<float>{0.0f, 0.0f, 0.5f, 1.0f});
 }
 
 TEST_SUITE_END();

@@ -123,6 +123,30 @@ TEST_CASE("path: a lamp and a sky together are as bright by every strategy") {
     CHECK(std::abs(hazy_both.mean - bsdf.mean) < 3 * std::hypot(hazy_both.error, bsdf.error));
 }
 
+TEST_CASE("path: a lamp under a roof gives the same light when a sun shines on the roof") {
+    // The sun gives off 10^10 times as much: by power alone, in float, the lamp would never be chosen.
+    Scene scene;
+    add_floor(scene, matt(glm::vec3(0.8f)));
+    add_quad(scene, {-50, 5, -50}, {100, 0, 0}, {0, 0, 100}, matt(glm::vec3(0.8f)));
+    add_quad(scene, {-5000, -10, 5000}, {10000, 0, 0}, {0, 0, -10000}, matt(glm::vec3(0.8f)));
+    Light lamp{"lamp", LightKind::point, glm::vec3(100.0f)};
+    lamp.position = {0.5f, 1.5f, -0.25f};
+    Light sun{"sun", LightKind::directional, glm::vec3(1e5f)};
+    sun.direction = {0, -1, 0};
+    const Camera camera = camera_above(1.0f);
+    const Frame frame{small_sizes() ? 4u : 16u, small_sizes() ? 4u : 16u};
+    // One in 32 samples takes the lamp.
+    LightOptions options = seeded(small_sizes() ? 16 : 64, 1);
+    const std::uint32_t repeats = small_sizes() ? 4 : 16;
+    scene.lights = {lamp};
+    const Estimate alone = estimate(test_device(), LitScene(test_device(), scene), camera, frame, options, 2);
+    scene.lights = {sun, lamp};
+    const Estimate both = estimate(test_device(), LitScene(test_device(), scene), camera, frame, options, repeats);
+    CHECK(alone.mean > 0.0);
+    CHECK(std::abs(both.mean - alone.mean) < 4 * both.error + 1e-5 * alone.mean);
+    if (!small_sizes()) CHECK(both.error < 0.03 * alone.mean);
+}
+
 TEST_CASE("path: the same bytes for any cut of the work and any order of the pixels") {
     const Scene scene = rich_scene();
     const LitScene lit(test_device(), scene, default_sky());
