@@ -49,7 +49,8 @@ Camera placed_camera(const glm::dvec3& eye, const glm::dvec3& target) {
     const glm::dvec3 view = target - eye;
     if (glm::length(view) == 0.0) throw UsageError("--eye and --target are the same point");
     const glm::dvec3 along = glm::normalize(view);
-    const bool vertical = along.x == 0.0 && along.z == 0.0;
+    // What is too small beside y to turn the frame counts as nothing.
+    const bool vertical = glm::length(glm::cross(glm::dvec3(0, 1, 0), along)) == 0.0;
     Camera camera;
     camera.name = "eye";
     // One unit ahead: the frame does not change with the distance, and far away does not cancel it.
@@ -78,10 +79,11 @@ void add_view(CLI::App& command, View& view) {
 Camera choose_camera(const Input& input, const View& view) {
     Camera camera = view.eye ? placed_camera(*view.eye, *view.target) : stored_camera(input, view.camera);
     if (!view.field_of_view) return camera;
-    if (!(*view.field_of_view > 0.0 && *view.field_of_view < 180.0))
+    const auto angle = static_cast<float>(*view.field_of_view / 180.0 * std::numbers::pi);
+    if (!(angle > 0.0f && angle < std::numbers::pi_v<float>)) // rounded, as the camera has it
         throw UsageError("--fov must lie between 0 and 180 degrees");
     if (!camera.perspective) throw UsageError("--fov: camera \"" + camera.name + "\" is orthographic and has none");
-    camera.vertical_fov = static_cast<float>(*view.field_of_view / 180.0 * std::numbers::pi);
+    camera.vertical_fov = angle;
     return camera;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boxwood/error.hpp"
+#include "scene/validate_camera.hpp"
 
 namespace boxwood {
 
@@ -40,6 +41,7 @@ CameraRecord record_of(const Camera& camera, std::uint32_t width, std::uint32_t 
 
 Buffer<CameraRecord> upload_camera(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                                    glm::vec2 jitter) {
+    validate_camera(camera, "camera", "");
     constexpr std::uint32_t most_across = 1u << 23;
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     if (width > most_across || height > most_across || std::uint64_t{width} * height > most)

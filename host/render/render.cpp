@@ -17,6 +17,7 @@
 #include "render/film.hpp"
 #include "render/integrators.hpp"
 #include "render/jitter.hpp"
+#include "scene/validate_camera.hpp"
 
 namespace boxwood {
 
@@ -128,6 +129,7 @@ struct Render::State {
 Render::Render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment,
                const Camera& camera, const RenderOptions& options) {
     check_options(options);
+    validate_camera(camera, "render", "camera.");
     check_film(device, options);
     state_ = std::make_unique<State>(device, scene, tree, environment, camera, options);
 }

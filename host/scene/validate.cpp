@@ -6,6 +6,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/scene.hpp"
 #include "scene/transform.hpp"
+#include "scene/validate_camera.hpp"
 #include "scene/validate_looks.hpp"
 
 namespace boxwood {
@@ -41,18 +42,18 @@ void validate_instance(const Scene& scene, std::size_t index, const std::vector<
     if (!fault.empty()) throw InputError(file, element("instances", index) + ".transform", std::string(fault));
 }
 
+} // namespace
+
 void validate_camera(const Camera& camera, const std::string& file, const std::string& where) {
     const std::string_view fault = transform_fault(camera.to_world);
-    if (!fault.empty()) throw InputError(file, where + ".to_world", std::string(fault));
+    if (!fault.empty()) throw InputError(file, where + "to_world", std::string(fault));
     if (camera.perspective && !(camera.vertical_fov > 0.0f && camera.vertical_fov < std::numbers::pi_v<float>)) {
-        throw InputError(file, where + ".vertical_fov", "is not between 0 and pi");
+        throw InputError(file, where + "vertical_fov", "is not between 0 and pi");
     }
     if (!camera.perspective && !(camera.half_height > 0.0f && std::isfinite(camera.half_height))) {
-        throw InputError(file, where + ".half_height", "is not positive and finite");
+        throw InputError(file, where + "half_height", "is not positive and finite");
     }
 }
-
-} // namespace
 
 void validate(const Scene& scene, const std::string& file) {
     std::vector<MeshBounds> bounds;
@@ -64,7 +65,7 @@ void validate(const Scene& scene, const std::string& file) {
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) validate_instance(scene, i, bounds, file);
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        validate_camera(scene.cameras[i], file, element("cameras", i));
+        validate_camera(scene.cameras[i], file, element("cameras", i) + ".");
     }
     validate_looks(scene, file);
 }

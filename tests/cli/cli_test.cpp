@@ -109,7 +109,11 @@ TEST_CASE("cli: bad input is code 3, names the file, and leaves nothing behind")
     check_failure(tool.run(render + "--eye 0,1 --target 0,0,0"), 2, "\"0,1\" is not a point");
     check_failure(tool.run(render + "--eye 0,1,nan --target 0,0,0"), 2, "nan");
     check_failure(tool.run(render + "--eye 0,1,2 --target 0,1,2"), 2, "same point");
-    check_failure(tool.run(render + "--fov 180"), 2, "180");
+    // In float the first is 0 and the last is pi.
+    for (const std::string angle : {"1e-300", "0", "nan", "180", "179.9999999999"}) {
+        CAPTURE(angle);
+        check_failure(tool.run(render + "--fov " + angle), 2, "180");
+    }
     CHECK(tool.files() == before);
 }
 

@@ -122,6 +122,12 @@ TEST_CASE("render tool: an eye and a target are a camera") {
     };
     CHECK(middle("0,0,0") == middle("15,20,0")); // along the same line
     CHECK(middle("0,0,0") != middle("0,0,20"));
+    // Straight down, also where what is left of x or z vanishes beside y.
+    for (const std::string eye : {"0,5,0", "1e-300,5,0", "0,5,-1e-200", "1e-30,5,1e-30"}) {
+        CAPTURE(eye);
+        const std::string render = "render sphere.glb --integrator normals --spp 1 --resolution 8x8 --target 0,0,0 ";
+        tool.succeed(render + "-o down.exr --eye " + eye);
+    }
 }
 
 TEST_CASE("render tool: exposure changes the preview alone") {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "boxwood/error.hpp"
@@ -188,6 +189,33 @@ TEST_CASE("render: words and options are checked") {
     RenderOptions vast = options_of(Integrator::normals, {});
     vast.width = vast.height = 1u << 16;
     CHECK_THROWS_AS(Render(device, scene, tree, {}, Camera{}, vast), CapacityError);
+}
+
+TEST_CASE("render: a camera without a frame or a field of view is refused") {
+    Device& device = test_device();
+    const Scene scene;
+    const Tree tree = build(device, scene);
+    const auto refused = [&](const auto& change) {
+        Camera camera;
+        change(camera);
+        CHECK_THROWS_AS(upload_camera(device, camera, 4, 4), InputError);
+        try {
+            Render(device, scene, tree, {}, camera, options_of(Integrator::normals, {}));
+        } catch (const InputError& error) {
+            return error.where;
+        }
+        return std::string("accepted");
+    };
+    const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+    CHECK(refused([](Camera& camera) { camera.to_world[1] = {}; }) == "camera.to_world");
+    CHECK(refused([&](Camera& camera) { camera.to_world[3][1] = nan; }) == "camera.to_world");
+    for (const float angle : {0.0f, -1.0f, std::numbers::pi_v<float>, nan, infinity})
+        CHECK(refused([&](Camera& camera) { camera.vertical_fov = angle; }) == "camera.vertical_fov");
+    for (const float height : {0.0f, -1.0f, nan, infinity})
+        CHECK(refused([&](Camera& camera) {
+                  camera.perspective = false;
+                  camera.half_height = height;
+              }) == "camera.half_height");
 }
 
 TEST_CASE("render: the words of every option of light") {
