@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "boxwood/error.hpp"
 #include "render/appearance_attributes.hpp"
 #include "render/appearance_lights.hpp"
 #include "render/appearance_textures.hpp"
@@ -54,6 +55,8 @@ std::vector<std::uint32_t> triangle_materials(const Scene& scene) {
 
 Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRequirements& needs,
                              std::vector<std::string>& warnings) {
+    if (needs.uv_sets > 2)
+        throw InputError("appearance", "uv_sets", std::to_string(needs.uv_sets) + " is out of range: 0 to 2");
     const std::vector<Material> materials = all_materials(scene);
     std::vector<bool> used = materials_in_use(scene);
     const std::size_t first = std::find(used.begin(), used.end(), true) - used.begin();

@@ -131,6 +131,7 @@ Render::Render(Device& device, const Scene& scene, const Tree& tree, const Envir
     check_options(options);
     validate_camera(camera, "render", "camera.");
     check_film(device, options);
+    validate(scene, "render");
     state_ = std::make_unique<State>(device, scene, tree, environment, camera, options);
 }
 

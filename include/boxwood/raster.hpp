@@ -17,9 +17,9 @@ namespace boxwood {
 /// traversal's own ray test, in the space that traversal uses.
 class Rasteriser {
 public:
-    /// `tree` is one of `scene`, whose triangles `geometry` holds; all of one device. A tree of one level over placed meshes
-    /// makes a copy of the scene flattened. References `geometry`. Throws CapacityError when the copy does not fit, or for
-    /// 2^32 - 1 placed triangles and more.
+    /// `tree` is one of `scene`, a valid one (see validate), whose triangles `geometry` holds; all of one device. A tree of one
+    /// level over placed meshes makes a copy of the scene flattened. References `geometry`. Throws CapacityError when the copy
+    /// does not fit, or for 2^32 - 1 placed triangles and more.
     Rasteriser(Device& device, const Scene& scene, const Tree& tree, const Geometry& geometry);
 
     /// hits[i] = what closest_hit says about rays[i], the ray of pixel first_pixel + i of a picture of width x height pixels

@@ -18,9 +18,8 @@ namespace boxwood {
 Buffer<CameraRecord> upload_camera(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                                    glm::vec2 jitter = glm::vec2(0.0f));
 
-/// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf).
-/// `rays` has width * height elements, both at most 2^23. Throws InputError when not, and for
-/// such a camera.
+/// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf). `rays` has width * height
+/// elements, both at most 2^23. Throws InputError when not, and for such a camera.
 void primary_rays(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                   BufferView<Ray> rays);
 
@@ -35,17 +34,17 @@ void diffuse_rays(Device& device, const Geometry& geometry, BufferView<const Ray
 void shadow_rays(Device& device, const Geometry& geometry, BufferView<const Ray> rays, BufferView<const Hit> hits,
                  const glm::vec3& light, BufferView<Ray> out);
 
-/// A perspective camera that sees all of the scene from outside, looking along (-1, -0.6, -1.2); for scenes without
-/// one. It fits pictures that are at least as wide as high. An empty scene gives the view of a unit ball at the origin.
+/// A perspective camera that sees all of a valid scene (see validate) from outside, looking along (-1, -0.6, -1.2); for scenes
+/// without one. It fits pictures that are at least as wide as high. An empty scene gives the view of a unit ball at the origin.
 /// O(vertices + instances).
 Camera default_camera(const Scene& scene);
 
-/// A point for shadow rays: the middle of the scene's bounding box at 95 % of its height, which is under the ceiling of
-/// a room and over most of an object. The origin for an empty scene. O(vertices + instances).
+/// A point for shadow rays: the middle of a valid scene's bounding box at 95 % of its height, which is under the ceiling of a
+/// room and over most of an object. The origin for an empty scene. O(vertices + instances).
 glm::vec3 default_light(const Scene& scene);
 
-/// A distance for RenderOptions::ao_distance: a tenth of the diagonal of the scene's bounding box, so that corners and what is
-/// near darken, but not the middle of a room. 1 for an empty scene or one that is a point. O(vertices + instances).
+/// A distance for RenderOptions::ao_distance: a tenth of the diagonal of a valid scene's bounding box, so that corners and what
+/// is near darken, but not the middle of a room. 1 for an empty scene or one that is a point. O(vertices + instances).
 float default_ao_distance(const Scene& scene);
 
 } // namespace boxwood

@@ -75,10 +75,9 @@ struct RenderOptions {
 /// A picture that grows: each sample of every pixel is added to the ones before.
 class Render {
 public:
-    /// Uploads `scene` and `environment`; `tree` was built of the same scene on the same device. Device, scene and tree stay alive
-    /// as long as this. Throws InputError for options out of range or that do not go together and for a
-    /// camera that upload_camera refuses, CapacityError when the film does
-    /// not fit, before any work.
+    /// Uploads `scene` and `environment`; `tree` was built of the same scene on the same device. Device, scene and tree stay
+    /// alive as long as this. Throws InputError for options out of range or that do not go together, for a camera that
+    /// upload_camera refuses and a scene that does not validate, CapacityError when the film does not fit, before any work.
     Render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment, const Camera& camera,
            const RenderOptions& options);
     ~Render();

@@ -42,7 +42,8 @@ struct ShadingRequirements {
     std::uint32_t attribute_floats() const;
 };
 
-/// Of the meshes that have an instance and the materials that their triangles name. O(size of the scene).
+/// Of the meshes of a valid scene (see validate) that have an instance, and the materials that their triangles name. O(size of the
+/// scene).
 ShadingRequirements shading_requirements(const Scene& scene);
 
 /// The words for reports: "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",

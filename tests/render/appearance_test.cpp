@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "boxwood/error.hpp"
 #include "render/appearance_attributes.hpp"
 #include "render/appearance_scenes.hpp"
 
@@ -107,6 +108,16 @@ TEST_CASE("attributes are interleaved, with zeros and white where a mesh lacks t
     CHECK(materials[2].base_color[0] == 0.8f);
     CHECK(materials[1].textures[BOXWOOD_BASE_COLOR].texture == 0);
     CHECK(materials[0].textures[BOXWOOD_BASE_COLOR].texture == BOXWOOD_NONE);
+}
+
+TEST_CASE("there are two sets of texture coordinates at most") {
+    const Scene scene = one_square(plain_material());
+    ShadingRequirements needs = shading_requirements(scene);
+    std::vector<std::string> warnings;
+    needs.uv_sets = 2;
+    CHECK(upload_appearance(test_device(), scene, needs, warnings).attributes.size() == 4 * 4);
+    needs.uv_sets = 3;
+    CHECK_THROWS_AS(upload_appearance(test_device(), scene, needs, warnings), InputError);
 }
 
 TEST_CASE("of one material in use there is one record and no list, and an empty scene has nothing") {

@@ -218,6 +218,27 @@ TEST_CASE("render: a camera without a frame or a field of view is refused") {
               }) == "camera.half_height");
 }
 
+TEST_CASE("render: a scene made by hand that breaks its promises is refused") {
+    Device& device = test_device();
+    const Scene scene = two_squares(1.0f);
+    const Tree tree = build(device, scene);
+    const auto refused = [&](const auto& change) {
+        Scene broken = scene;
+        change(broken);
+        try {
+            Render(device, broken, tree, {}, Camera{}, options_of(Integrator::path, {}));
+        } catch (const InputError& error) {
+            return error.where;
+        }
+        return std::string("accepted");
+    };
+    CHECK(refused([](Scene&) {}) == "accepted");
+    CHECK(refused([](Scene& s) { s.meshes[1].materials[0] = 2; }).starts_with("meshes[1].materials"));
+    CHECK(refused([](Scene& s) { s.meshes[1].materials.push_back(1); }).starts_with("meshes[1].materials"));
+    CHECK(refused([](Scene& s) { s.meshes[0].colors.resize(3); }).starts_with("meshes[0].colors"));
+    CHECK(refused([](Scene& s) { s.instances[0].mesh = 7; }) == "instances[0].mesh");
+}
+
 TEST_CASE("render: the words of every option of light") {
     for (const char* word : {"path", "direct", "ambient", "ao", "normals", "cost"})
         CHECK(name(to_integrator(word)) == word);
