@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/light.hpp"
 
-#include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "boxwood/error.hpp"
+#include "boxwood/material.hpp"
 
 namespace boxwood::cli {
 
@@ -29,7 +29,7 @@ void add_words(CLI::App& command, const std::string& option, Value& target, cons
         ->type_name("WORD");
 }
 
-/// "R,G,B", finite and not negative.
+/// "R,G,B", within [0, largest_radiance].
 std::optional<glm::vec3> to_radiance(const std::string& text) {
     std::istringstream stream(text);
     glm::vec3 color;
@@ -37,7 +37,7 @@ std::optional<glm::vec3> to_radiance(const std::string& text) {
     if (!(stream >> color.r >> comma[0] >> color.g >> comma[1] >> color.b)) return std::nullopt;
     if (comma[0] != ',' || comma[1] != ',' || !(stream >> std::ws).eof()) return std::nullopt;
     for (int c = 0; c < 3; ++c)
-        if (!(color[c] >= 0.0f && std::isfinite(color[c]))) return std::nullopt;
+        if (!(color[c] >= 0.0f && color[c] <= largest_radiance)) return std::nullopt;
     return color;
 }
 
@@ -102,7 +102,7 @@ Surroundings surroundings(const std::string& choice, const ShadingRequirements& 
     const std::filesystem::path file(choice);
     if (file.extension() != ".exr")
         throw UsageError("--environment \"" + choice +
-                         "\" is none of FILE.exr, sky, none, and R,G,B (three numbers from 0)");
+                         "\" is none of FILE.exr, sky, none, and R,G,B (three numbers from 0 to 2^60)");
     Surroundings result{{}, file.filename().string(), {}};
     result.environment = load_environment(file, result.warnings);
     return result;

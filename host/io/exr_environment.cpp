@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <exception>
 #include <string>
 
@@ -11,6 +10,7 @@
 
 #include "boxwood/environment.hpp"
 #include "boxwood/error.hpp"
+#include "boxwood/material.hpp"
 
 namespace boxwood {
 
@@ -64,13 +64,13 @@ Environment load_environment(const std::filesystem::path& file, std::vector<std:
     std::size_t replaced = 0;
     for (glm::vec3& pixel : environment.pixels)
         for (int c = 0; c < 3; ++c)
-            if (!(std::isfinite(pixel[c]) && pixel[c] >= 0.0f)) {
-                pixel[c] = 0.0f;
+            if (!(pixel[c] >= 0.0f && pixel[c] <= largest_radiance)) {
+                pixel[c] = pixel[c] > 0.0f ? largest_radiance : 0.0f;
                 ++replaced;
             }
     if (replaced > 0)
         warnings.push_back(file.string() + ": " + std::to_string(replaced) +
-                           " values that are negative or not finite are 0");
+                           " values that are no radiance are 0, or 2^60 where they are larger");
     return environment;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "boxwood/error.hpp"
+#include "boxwood/material.hpp"
 
 namespace boxwood {
 
@@ -69,9 +70,24 @@ void upload_picture(Device& device, const Environment& e, EnvironmentMap& map) {
     map.columns = upload(device, columns, "environment columns");
 }
 
+bool is_radiance(const glm::vec3& c) {
+    for (int i = 0; i < 3; ++i)
+        if (!(c[i] >= 0.0f && c[i] <= largest_radiance)) return false;
+    return true;
+}
+
+void check_radiance(const Environment& e) {
+    const char* const fault = "is not within 0 and 2^60";
+    if (!is_radiance(e.radiance)) throw InputError("environment", "radiance", fault);
+    const auto wrong = std::find_if_not(e.pixels.begin(), e.pixels.end(), is_radiance);
+    if (wrong != e.pixels.end())
+        throw InputError("environment", "pixels[" + std::to_string(wrong - e.pixels.begin()) + "]", fault);
+}
+
 } // namespace
 
 EnvironmentMap upload_environment(Device& device, const Environment& environment) {
+    check_radiance(environment);
     if (environment.pixels.size() != std::size_t{environment.width} * environment.height)
         throw InputError("environment", "pixels",
                          std::to_string(environment.pixels.size()) + " for " + std::to_string(environment.width) +

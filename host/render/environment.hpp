@@ -20,8 +20,8 @@ struct EnvironmentMap {
     Buffer<float> columns; ///< The same within each row: height * (width + 1).
 };
 
-/// Uploads a valid environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture
-/// whose pixels are not width * height, and CapacityError when it does not fit. O(pixels).
+/// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture whose
+/// pixels are not width * height, or for the first that is not within [0, largest_radiance], and CapacityError when it does not fit. O(pixels).
 EnvironmentMap upload_environment(Device& device, const Environment& environment);
 
 } // namespace boxwood

@@ -11,20 +11,20 @@
 
 namespace boxwood {
 
-/// Radiance by direction, world space. Either the same everywhere, or a picture of the whole sphere: its rows go from +y (top)
+/// Radiance by direction, world space (largest_radiance: boxwood/material.hpp; what is out of range is an InputError in rendering). Either the same everywhere, or a picture of the whole sphere: its rows go from +y (top)
 /// to -y, its columns around y, the middle of the picture being -z and the right of that +x.
 struct Environment {
-    glm::vec3 radiance{0.0f}; ///< Everywhere, when there is no picture; finite, >= 0.
+    glm::vec3 radiance{0.0f}; ///< Everywhere, when there is no picture; within [0, largest_radiance].
     std::uint32_t width = 0;  ///< 0: no picture.
     std::uint32_t height = 0;
-    std::vector<glm::vec3> pixels; ///< width * height, rows top to bottom; finite, >= 0.
+    std::vector<glm::vec3> pixels; ///< width * height, rows top to bottom; within [0, largest_radiance].
 };
 
 /// A clear sky that is brightest at the sun, over grey ground, for scenes without light. The horizon's radiance is near 1.
 Environment default_sky();
 
-/// Reads R, G, B of an OpenEXR file as such a picture. Negative and non-finite values become 0, counted in one line of
-/// `warnings`. Throws InputError when the file cannot be read, lacks a channel, or has more than 2^26 pixels.
+/// Reads R, G, B of an OpenEXR file as such a picture. Negative values and NaN become 0, larger ones and infinity
+/// largest_radiance, counted in one line of `warnings`. Throws InputError when the file cannot be read, lacks a channel, or has more than 2^26 pixels.
 Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 } // namespace boxwood

@@ -60,7 +60,7 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     check_failure(tool.run(render + "--ao-distance 0"), 2, "--ao-distance");
     check_failure(tool.run(render + "--checkpoint -1"), 2, "--checkpoint");
     check_failure(tool.run(render + "--integrator normals --aov indirect"), 2, "normals");
-    for (const std::string light : {"dawn", "1,2", "1,2,3,4", "1,-1,1", "1,nan,1", "sky.png"}) {
+    for (const std::string light : {"dawn", "1,2", "1,2,3,4", "1,-1,1", "1,nan,1", "1,2e18,1", "sky.png"}) {
         CAPTURE(light);
         check_failure(tool.run(render + "--environment " + light), 2, "R,G,B");
     }

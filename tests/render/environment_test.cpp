@@ -10,6 +10,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
+#include "boxwood/material.hpp"
 #include "render/environment.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
@@ -209,11 +210,36 @@ TEST_CASE("environment: what is black is none, and sizes must agree") {
     CHECK(upload_environment(test_device(), sky).kind == EnvironmentKind::picture);
 }
 
-TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as 0 with a warning") {
+TEST_CASE("environment: what is no radiance is refused, and its pixel named") {
+    const auto refused = [](const Environment& e) {
+        try {
+            upload_environment(test_device(), e);
+        } catch (const InputError& error) {
+            return error.where;
+        }
+        return std::string("accepted");
+    };
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float value : {std::nanf(""), -1.0f, -infinity, infinity, std::nextafter(largest_radiance, infinity)}) {
+        CAPTURE(value);
+        Environment constant;
+        constant.radiance.y = value;
+        CHECK(refused(constant) == "radiance");
+        Environment picture{glm::vec3(0.0f), 3, 2, std::vector<glm::vec3>(6, glm::vec3(largest_radiance))};
+        CHECK(refused(picture) == "accepted");
+        picture.pixels[4].z = value;
+        CHECK(refused(picture) == "pixels[4]");
+    }
+}
+
+TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as the nearest, with a warning") {
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "boxwood-environment-test.exr";
     Image image{3, 2, {}};
     for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>{1, 2, 3, 4, 5, 6}});
     std::get<std::vector<float>>(image.channels[1].samples)[4] = -1.0f;
+    std::get<std::vector<float>>(image.channels[0].samples)[3] = std::numeric_limits<float>::infinity();
+    std::get<std::vector<float>>(image.channels[1].samples)[3] = 2e18f;
+    std::get<std::vector<float>>(image.channels[2].samples)[3] = -std::numeric_limits<float>::infinity();
     std::get<std::vector<float>>(image.channels[2].samples)[5] = std::numeric_limits<float>::quiet_NaN();
     save_exr(file, image);
     std::vector<std::string> warnings;
@@ -221,9 +247,11 @@ TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as 0 wit
     CHECK(e.width == 3);
     CHECK(e.height == 2);
     CHECK(e.pixels[1] == glm::vec3(2.0f));
+    CHECK(e.pixels[3] == glm::vec3(largest_radiance, largest_radiance, 0));
     CHECK(e.pixels[4] == glm::vec3(5, 0, 5));
     CHECK(e.pixels[5] == glm::vec3(6, 6, 0));
-    CHECK(warnings.size() == 1);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find(": 5 values") != std::string::npos);
     image.channels.pop_back();
     save_exr(file, image);
     CHECK_THROWS_AS(load_environment(file, warnings), InputError);
