@@ -143,8 +143,14 @@ Result render_pictures(Device& device, const Arguments& arguments, const RenderO
                      {"interrupted", result.work.interrupted},
                      {"channels", image.channels.size()}};
     add_times(result.profile, result.report);
-    save_preview(arguments, options.light.integrator, image, result.report);
-    save_exr(arguments.output, image);
+    try {
+        save_exr(arguments.output, image);
+        save_preview(arguments, options.light.integrator, image, result.report);
+    } catch (const InputError&) {
+        save_checkpoint(render, arguments.checkpoint()); // so that the samples are not lost with the pictures
+        throw;
+    }
+    if (result.work.interrupted) result.work.not_saved = save_checkpoint(render, arguments.checkpoint());
     return result;
 }
 
@@ -176,10 +182,12 @@ void check(const Arguments& arguments) {
 void finish(const Arguments& arguments, const RenderWork& work, std::uint32_t samples) {
     if (work.interrupted)
         throw Interrupted("interrupted after " + std::to_string(work.samples) + " of " + std::to_string(samples) +
-                          " samples: " + arguments.output.string() + " shows those, and --resume goes on from " +
-                          arguments.checkpoint().string());
+                          " samples: " + arguments.output.string() + " shows those, " +
+                          (work.not_saved.empty() ? "and --resume goes on from " + arguments.checkpoint().string()
+                                                  : "but no checkpoint was saved: " + work.not_saved));
     std::error_code ignored;
-    std::filesystem::remove(arguments.checkpoint(), ignored);
+    if (std::filesystem::is_regular_file(arguments.checkpoint(), ignored))
+        std::filesystem::remove(arguments.checkpoint(), ignored);
 }
 
 void run(const Arguments& arguments) {

@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <iterator>
+#include <iostream>
+#include <utility>
 
 #include "boxwood/error.hpp"
 #include "cli/interrupt.hpp"
@@ -17,13 +18,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-void save_checkpoint(const Render& render, const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = render.state();
-    AtomicFile out(file);
-    out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.commit();
-}
 
 std::vector<std::byte> file_bytes(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -48,10 +42,23 @@ std::string duration(double seconds) {
 
 void resume(Render& render, const std::filesystem::path& file) { render.restore(file_bytes(file), file.string()); }
 
+std::string save_checkpoint(const Render& render, const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = render.state();
+    try {
+        AtomicFile out(file);
+        out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        out.commit();
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
                         Progress& progress) {
     const InterruptGuard guard;
-    RenderWork work{render.samples(), render.samples(), 0.0, false};
+    RenderWork work{render.samples(), render.samples(), 0.0, false, ""};
+    bool warned = false;
     const auto start = Clock::now();
     auto saved = start;
     const double compiled_before = device.compile_ms();
@@ -66,13 +73,16 @@ RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, c
         device.finish();
         work.samples = render.samples();
         if (checkpoints.seconds && !render.done() && seconds_since(saved) >= *checkpoints.seconds) {
-            save_checkpoint(render, checkpoints.file);
+            const std::string failure = save_checkpoint(render, checkpoints.file);
+            if (!failure.empty() && !std::exchange(warned, true)) {
+                progress.clear();
+                std::cerr << "boxwood: warning: no checkpoint was saved: " << failure << '\n';
+            }
             saved = Clock::now();
         }
     }
     work.ms = 1e3 * seconds();
     work.interrupted = !render.done();
-    if (work.interrupted) save_checkpoint(render, checkpoints.file);
     return work;
 }
 

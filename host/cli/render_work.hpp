@@ -23,12 +23,17 @@ struct RenderWork {
     std::uint32_t samples = 0; ///< Those and the ones taken.
     double ms = 0.0;           ///< For those taken, without the compilation of programs.
     bool interrupted = false;
+    std::string not_saved; ///< Interrupted: why no checkpoint could be written; empty when one was.
 };
 
 /// Reads the checkpoint. Throws InputError when there is none, or as Render::restore does.
 void resume(Render& render, const std::filesystem::path& file);
 
-/// Takes samples until all are done or the user interrupts; in that case a checkpoint is left. Waits.
+/// Writes what is needed to go on. Returns why that failed, empty when it did not: no reason to lose the picture.
+std::string save_checkpoint(const Render& render, const std::filesystem::path& file);
+
+/// Takes samples until all are done or the user interrupts; a checkpoint of the end is left to the caller. The first one that
+/// cannot be written is warned of on standard error. Waits.
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
                         Progress& progress);
 

@@ -161,6 +161,31 @@ TEST_CASE("render tool: a render that is ended leaves picture and checkpoint, an
     CHECK_FALSE(std::filesystem::exists(tool.file("x.exr.resume"))); // of no use any more
 }
 
+TEST_CASE("render tool: a checkpoint that cannot be written costs no picture") {
+    const Tool tool;
+    make_scenes(tool);
+    tool.succeed(picture);
+    const std::string unbroken = tool.contents("x.exr");
+    // A folder in the place of the file, once there is one: before that the tool refuses to begin.
+    const std::string block = "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; "
+                              "until mkdir x.exr.resume 2>/dev/null; do rm -f x.exr.resume; done; ";
+    const Run whole = tool.run(picture + "--checkpoint 0", block + ") &");
+    CAPTURE(whole.err);
+    CHECK(whole.code == 0);
+    CHECK(whole.err.starts_with("boxwood: warning: no checkpoint was saved: "));
+    CHECK(std::count(whole.err.begin(), whole.err.end(), '\n') == 1);
+    CHECK(tool.contents("x.exr") == unbroken);
+    CHECK(std::filesystem::remove(tool.file("x.exr.resume"))); // the folder is left alone
+
+    for (const std::string name : {"x.exr", "x.png"}) std::filesystem::remove(tool.file(name));
+    const Run ended = tool.run(picture + "--checkpoint 0", block + "kill -TERM $$) &");
+    CAPTURE(ended.err);
+    CHECK(ended.code == 130);
+    CHECK(ended.err.find("but no checkpoint was saved") != std::string::npos);
+    CHECK(ended.err.find("--resume") == std::string::npos);
+    CHECK(tool.files() == Names{"forest.glb", "room.glb", "x.exr", "x.exr.resume", "x.png"});
+}
+
 TEST_CASE("render tool: a checkpoint that is damaged or of another render is refused, and kept") {
     const Tool tool;
     make_scenes(tool);
