@@ -82,6 +82,19 @@ void add_world(bxw::Checksum& sum, Device& device, const World& world) {
     add_array(sum, device, world.environment.texels);
 }
 
+/// What the cost of a ray depends on: kinds, counts and nodes.
+void add_tree(bxw::Checksum& sum, Device& device, const Tree& tree) {
+    for (const std::uint32_t kind : {static_cast<std::uint32_t>(tree.layout), static_cast<std::uint32_t>(tree.levels),
+                                     static_cast<std::uint32_t>(tree.bounds)})
+        add_value(sum, kind);
+    add_array(sum, device, tree.binary_nodes);
+    add_array(sum, device, tree.oriented_nodes);
+    add_array(sum, device, tree.wide_nodes);
+    add_array(sum, device, tree.binary_top);
+    add_array(sum, device, tree.oriented_top);
+    add_array(sum, device, tree.wide_top);
+}
+
 void add_camera(bxw::Checksum& sum, const Camera& camera) {
     sum.add(&camera.to_world, sizeof camera.to_world);
     add_value(sum, std::uint32_t{camera.perspective});
@@ -110,6 +123,7 @@ std::uint64_t render_fingerprint(Device& device, const World& world, const Camer
                                         std::string_view(info.name), std::string_view(info.driver)})
         add_text(sum, text);
     add_world(sum, device, world);
+    if (options.light.integrator == Integrator::cost) add_tree(sum, device, world.tree);
     add_camera(sum, camera);
     add_options(sum, options);
     return sum.value();
@@ -140,9 +154,9 @@ Checkpoint decode_checkpoint(std::span<const std::byte> bytes, std::uint64_t fin
         throw fail("is cut off or has bytes behind its end: begin anew");
     if (checksum(header, rest) != header.checksum) throw fail("is damaged (its checksum differs): begin anew");
     if (header.fingerprint != fingerprint || header.floats != floats || header.samples > most_samples)
-        throw fail(
-            "is of another render: scene, camera, options of light, resolution, device and version of Boxwood must be "
-            "those it was begun with");
+        throw fail("is of another render: scene, camera, options of light (and the tree, for cost), resolution, device "
+                   "and version of Boxwood must be "
+                   "those it was begun with");
     Checkpoint checkpoint{header.samples, std::vector<float>(floats)};
     if (floats > 0) std::memcpy(checkpoint.film.data(), rest.data(), rest.size());
     return checkpoint;

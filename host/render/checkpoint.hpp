@@ -13,8 +13,8 @@
 namespace boxwood {
 
 /// Number that differs, but for a chance of 2^-64, between renders that would not give the same samples: of the device, the version
-/// of Boxwood, all arrays of the scene, environment, camera and the options that decide about light. Reads the scene back from the
-/// device. O(size of the scene).
+/// of Boxwood, all arrays of the scene, environment, camera and the options that decide about light; for
+/// Integrator::cost, the nodes of the tree too. Reads the scene back from the device. O(size of the scene).
 std::uint64_t render_fingerprint(Device& device, const World& world, const Camera& camera,
                                  const RenderOptions& options);
 

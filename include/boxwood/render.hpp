@@ -102,7 +102,7 @@ public:
     /// All that a Render of the same arguments needs to go on from here to the same picture, bit by bit. Waits.
     std::vector<std::byte> state() const;
     /// Goes on from a state. Throws InputError naming `file` when it is damaged, of another version, or of other arguments (scene,
-    /// camera, options, or device; tree, batch and AOVs may differ).
+    /// camera, options, or device; batch and AOVs may differ, and so may the tree but for Integrator::cost, which shows it).
     void restore(std::span<const std::byte> state, std::string_view file);
 
 private:

@@ -94,7 +94,8 @@ TEST_CASE("render: a picture grows to what render() gives, and goes on from a st
         CHECK(std::get<std::int32_t>(work.image().attributes.at("samples")) == 2);
         const std::vector<std::byte> state = work.state();
 
-        painter.tree = build(painter.device, painter.scene, {.layout = Layout::binary}); // answers do not depend on it
+        if (integrator != Integrator::cost) // no answer of the others depends on the tree
+            painter.tree = build(painter.device, painter.scene, {.layout = Layout::binary});
         painter.options.batch = 100;
         Render other = painter.start();
         other.restore(state, "test");
@@ -102,7 +103,7 @@ TEST_CASE("render: a picture grows to what render() gives, and goes on from a st
         while (!other.done()) other.advance();
         other.advance(); // nothing is left to do
         CHECK(other.samples() == samples);
-        if (integrator != Integrator::cost) CHECK(same_channels(other.image(), whole));
+        CHECK(same_channels(other.image(), whole));
     }
 }
 
@@ -146,6 +147,27 @@ TEST_CASE("render: a state of something else, or a damaged one, is refused") {
     CHECK(differs([](Painter& other) { other.options.light.integrator = Integrator::cost; }));
     CHECK(differs([](Painter& other) { other.scene.meshes[0].positions[0].x -= 0.5f; }));
     CHECK(differs([](Painter& other) { other.scene.materials[1].base_color.x = 0.5f; }));
+}
+
+TEST_CASE("render: a state of costs is refused with any other tree") {
+    Painter painter(Integrator::cost, 4);
+    Render work = painter.start();
+    work.advance();
+    const std::vector<std::byte> state = work.state();
+    const auto refused = [&](const BuildOptions& options) {
+        painter.tree = build(painter.device, painter.scene, options);
+        Render other = painter.start();
+        try {
+            other.restore(state, "a.resume");
+        } catch (const InputError&) {
+            return true;
+        }
+        return false;
+    };
+    CHECK_FALSE(refused({}));
+    CHECK(refused({.layout = Layout::binary}));
+    CHECK(refused({.levels = Levels::two}));
+    CHECK(refused({.layout = Layout::binary, .bounds = {.kind = Bounds::obb_moments}}));
 }
 
 TEST_SUITE_END();
