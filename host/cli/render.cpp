@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "boxwood/rays.hpp"
@@ -171,8 +172,32 @@ void print_summary(const Arguments& arguments, const RenderOptions& options, con
                   << " samples of pixels were no light and left out\n";
 }
 
+/// Throws UsageError when two of the files are one: what is read would be lost, or what is written first.
+void check_distinct(const Arguments& arguments) {
+    const std::string_view none;
+    const bool picture = std::filesystem::path(arguments.environment).extension() == ".exr";
+    const std::pair<std::string_view, std::filesystem::path> files[] = {
+        {"the scene", arguments.input},
+        {"--environment", picture ? arguments.environment : none},
+        {"--output", arguments.output},
+        {"the preview", arguments.preview()},
+        {"the checkpoint", arguments.checkpoint()},
+        {"--report", arguments.report}};
+    std::map<std::filesystem::path, std::string_view> seen;
+    for (const auto& [role, file] : files) {
+        if (file.empty()) continue;
+        std::error_code failure;
+        const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), failure);
+        const auto [first, fresh] = seen.emplace(failure ? file : place, role);
+        if (!fresh)
+            throw UsageError("\"" + file.string() + "\" is both " + std::string(first->second) + " and " +
+                             std::string(role));
+    }
+}
+
 void check(const Arguments& arguments) {
     arguments.choice.check();
+    check_distinct(arguments);
     check_output(arguments.output, ".exr");
     check_output(arguments.preview(), ".png");
     check_output(arguments.report, "");

@@ -73,6 +73,31 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     CHECK(tool.files() == Names{"forest.glb", "room.glb"});
 }
 
+TEST_CASE("render tool: two files that are one are refused before any work") {
+    const Tool tool;
+    make_scenes(tool);
+    const std::string room = tool.contents("room.glb");
+    const std::vector<float> ones(8, 1.0f);
+    save_exr(tool.file("light.exr"), {4, 2, {{"R", ones}, {"G", ones}, {"B", ones}}});
+    const std::string light = tool.contents("light.exr");
+    std::filesystem::create_symlink(tool.file("light.exr"), tool.file("link.exr"));
+    const Names before = tool.files();
+    const std::string render = "render room.glb --resolution 4x4 --spp 1 ";
+    check_failure(tool.run(render + "-o x.exr --report x.exr"), 2, "--output and --report");
+    check_failure(tool.run(render + "-o x.exr --report ./x.png"), 2, "the preview and --report");
+    check_failure(tool.run(render + "-o x.exr --report '" + tool.file("x.exr.resume").string() + "'"), 2,
+                  "the checkpoint and --report");
+    check_failure(tool.run(render + "-o x.exr --report room.glb"), 2, "the scene and --report");
+    check_failure(tool.run(render + "-o light.exr --environment light.exr"), 2, "--environment and --output");
+    check_failure(tool.run(render + "-o light.exr --environment link.exr"), 2, "--environment and --output");
+    check_failure(tool.run(render + "-o x.exr --environment light.exr --report light.exr"), 2,
+                  "--environment and --report");
+    CHECK(tool.contents("room.glb") == room);
+    CHECK(tool.contents("light.exr") == light);
+    CHECK(tool.files() == before);
+    tool.succeed(render + "-o x.exr --environment sky --report sky"); // a word is no file
+}
+
 TEST_CASE("render tool: every integrator makes its picture, the same bytes each time, and names no folder") {
     const Tool tool;
     make_scenes(tool);
