@@ -202,8 +202,16 @@ void check(const Arguments& arguments) {
     check_output(arguments.preview(), ".png");
     check_output(arguments.report, "");
     check_output(arguments.checkpoint(), "");
+    const bool begun = std::filesystem::exists(arguments.checkpoint());
+    if (arguments.resume && !begun)
+        throw InputError(arguments.checkpoint().string(), "",
+                         "there is no such checkpoint to resume from: leave --resume out to begin");
+    if (!arguments.resume && begun && !arguments.common.quiet)
+        std::cerr << "boxwood: warning: " << arguments.checkpoint().string()
+                  << " is there: --resume goes on from it; this render starts anew\n";
 }
 
+/// A checkpoint of a finished render is of no use; one that another render left is not this one's to remove.
 void finish(const Arguments& arguments, const RenderWork& work, std::uint32_t samples) {
     if (work.interrupted)
         throw Interrupted("interrupted after " + std::to_string(work.samples) + " of " + std::to_string(samples) +
@@ -211,7 +219,7 @@ void finish(const Arguments& arguments, const RenderWork& work, std::uint32_t sa
                           (work.not_saved.empty() ? "and --resume goes on from " + arguments.checkpoint().string()
                                                   : "but no checkpoint was saved: " + work.not_saved));
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(arguments.checkpoint(), ignored))
+    if ((arguments.resume || work.saved) && std::filesystem::is_regular_file(arguments.checkpoint(), ignored))
         std::filesystem::remove(arguments.checkpoint(), ignored);
 }
 

@@ -21,8 +21,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 std::vector<std::byte> file_bytes(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw InputError(file.string(), "", "there is no such checkpoint to resume from: leave --resume out to begin");
+    if (!stream) throw InputError(file.string(), "", "cannot be opened");
     std::error_code failure;
     const auto size = std::filesystem::file_size(file, failure);
     std::vector<std::byte> bytes(failure ? 0 : size);
@@ -57,7 +56,7 @@ std::string save_checkpoint(const Render& render, const std::filesystem::path& f
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
                         Progress& progress) {
     const InterruptGuard guard;
-    RenderWork work{render.samples(), render.samples(), 0.0, false, ""};
+    RenderWork work{render.samples(), render.samples(), 0.0, false, false, ""};
     bool warned = false;
     const auto start = Clock::now();
     auto saved = start;
@@ -74,6 +73,7 @@ RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, c
         work.samples = render.samples();
         if (checkpoints.seconds && !render.done() && seconds_since(saved) >= *checkpoints.seconds) {
             const std::string failure = save_checkpoint(render, checkpoints.file);
+            work.saved |= failure.empty();
             if (!failure.empty() && !std::exchange(warned, true)) {
                 progress.clear();
                 std::cerr << "boxwood: warning: no checkpoint was saved: " << failure << '\n';

@@ -23,6 +23,7 @@ struct RenderWork {
     std::uint32_t samples = 0; ///< Those and the ones taken.
     double ms = 0.0;           ///< For those taken, without the compilation of programs.
     bool interrupted = false;
+    bool saved = false;    ///< A checkpoint was written on the way.
     std::string not_saved; ///< Interrupted: why no checkpoint could be written; empty when one was.
 };
 

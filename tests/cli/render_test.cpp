@@ -211,6 +211,21 @@ TEST_CASE("render tool: a checkpoint that cannot be written costs no picture") {
     CHECK(tool.files() == Names{"forest.glb", "room.glb", "x.exr", "x.exr.resume", "x.png"});
 }
 
+TEST_CASE("render tool: a checkpoint that another render left is warned of and kept") {
+    const Tool tool;
+    make_scenes(tool);
+    tool.write("x.exr.resume", "of another");
+    const std::string render = "render room.glb -o x.exr --resolution 4x4 --spp 2 --depth 1 ";
+    const Run run = tool.succeed(render);
+    CHECK(run.err == "boxwood: warning: x.exr.resume is there: --resume goes on from it; this render starts anew\n");
+    CHECK(tool.succeed(render + "--quiet").err.empty());
+    CHECK(tool.contents("x.exr.resume") == "of another");
+    tool.succeed(render + "--quiet --checkpoint 0"); // writes its own
+    CHECK_FALSE(std::filesystem::exists(tool.file("x.exr.resume")));
+    // Found before any work: the scene is not even read.
+    check_failure(tool.run("render none.glb -o x.exr --resume"), 3, "x.exr.resume");
+}
+
 TEST_CASE("render tool: a checkpoint that is damaged or of another render is refused, and kept") {
     const Tool tool;
     make_scenes(tool);
