@@ -178,7 +178,7 @@ ambient_gather(global const uint* blocked, global const Hit* next_hits, global c
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        const float open = 1.0f - exp(-next_hits[i].t / distance);
+        const float open = -expm1(-next_hits[i].t / distance);
 #if LIGHTS
         const float free = blocked[i] ? 0.0f : 1.0f;
         const float3 light = free * vload3(2 * i, pending);
@@ -219,7 +219,7 @@ occlusion_light(global const Hit* next_hits, float distance, uint count, uint le
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        ao[i] = 1.0f - exp(-next_hits[i].t / distance);
+        ao[i] = -expm1(-next_hits[i].t / distance);
         vstore3((float3)(ao[i]), i, light);
     }
 }

@@ -11,7 +11,7 @@
 #include "runtime/numerics.h"
 #include "shared/environment.h"
 
-#if ENVIRONMENT < 0 || ENVIRONMENT > 2
+#if !defined(ENVIRONMENT) || ENVIRONMENT < 0 || ENVIRONMENT > 2
 #error "define ENVIRONMENT (0 none, 1 constant, 2 picture)"
 #endif
 

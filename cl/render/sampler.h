@@ -11,7 +11,7 @@
 #include "render/random.h"
 #include "runtime/numerics.h"
 
-#if SAMPLER < 0 || SAMPLER > 2
+#if !defined(SAMPLER) || SAMPLER < 0 || SAMPLER > 2
 #error "define SAMPLER (0 random, 1 stratified, 2 sobol)"
 #endif
 

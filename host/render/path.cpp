@@ -52,8 +52,7 @@ struct Programs {
         const bool towards = options.strategy != Strategy::bsdf;
         const bool lights = world.appearance.lights.size() > 0 && (needs.punctual || towards);
         next_event = lights || (towards && world.environment.kind != EnvironmentKind::none);
-        Defines defines = scene_defines(needs);
-        if (needs.textures) defines["FILTER"] = std::to_string(2 - static_cast<int>(options.filter));
+        Defines defines = scene_defines(needs, options.filter);
         alpha = {"render/path_alpha.cl", "pass_shadows", defines};
         defines["ALPHA"] = flag(needs.alpha);
         defines["SPECULAR"] = flag(needs.specular);

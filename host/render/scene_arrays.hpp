@@ -10,7 +10,7 @@
 namespace boxwood {
 
 /// The macros of cl/render/scene_arrays.h, and with textures that of cl/render/texture.h.
-Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter = TextureFilter::anisotropic);
+Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter);
 
 /// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
 template <class... Arguments>
