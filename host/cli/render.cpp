@@ -123,12 +123,12 @@ double samples_per_s(const RenderOptions& options, const RenderWork& work) {
 
 /// Renders, writes the pictures, and says what there is to report of them.
 Result render_pictures(Device& device, const Arguments& arguments, const RenderOptions& options, Render& render,
-                       Progress& progress) {
+                       const InterruptGuard& guard, Progress& progress) {
     if (arguments.resume) resume(render, arguments.checkpoint());
     device.take_profile();
     Result result;
     result.work = take_samples(device, render, options.light.samples,
-                               {arguments.checkpoint(), arguments.checkpoint_seconds}, progress);
+                               {arguments.checkpoint(), arguments.checkpoint_seconds}, guard, progress);
     result.profile = device.take_profile();
     progress.step("writing " + arguments.output.string());
     Image image = render.image();
@@ -243,7 +243,8 @@ void run(const Arguments& arguments) {
         print_warnings(input.file, render.warnings());
         print_warnings(arguments.environment, around.warnings);
     }
-    const Result result = render_pictures(device, arguments, options, render, progress);
+    const InterruptGuard guard; // until all is written: a signal meanwhile cuts no output off
+    const Result result = render_pictures(device, arguments, options, render, guard, progress);
 
     std::vector<std::string> query = words(needs);
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())

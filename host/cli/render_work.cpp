@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "boxwood/error.hpp"
-#include "cli/interrupt.hpp"
 #include "io/atomic_file.hpp"
 
 namespace boxwood::cli {
@@ -54,8 +53,7 @@ std::string save_checkpoint(const Render& render, const std::filesystem::path& f
 }
 
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
-                        Progress& progress) {
-    const InterruptGuard guard;
+                        const InterruptGuard& guard, Progress& progress) {
     RenderWork work{render.samples(), render.samples(), 0.0, false, false, ""};
     bool warned = false;
     const auto start = Clock::now();

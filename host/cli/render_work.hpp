@@ -7,6 +7,7 @@
 #include <string>
 
 #include "boxwood/render.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 
 namespace boxwood::cli {
@@ -36,7 +37,7 @@ std::string save_checkpoint(const Render& render, const std::filesystem::path& f
 /// Takes samples until all are done or the user interrupts; a checkpoint of the end is left to the caller. The first one that
 /// cannot be written is warned of on standard error. Waits.
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
-                        Progress& progress);
+                        const InterruptGuard& guard, Progress& progress);
 
 /// "45 s", "3 min 10 s", "2 h 5 min".
 std::string duration(double seconds);

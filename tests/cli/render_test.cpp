@@ -186,6 +186,20 @@ TEST_CASE("render tool: a render that is ended leaves picture and checkpoint, an
     CHECK_FALSE(std::filesystem::exists(tool.file("x.exr.resume"))); // of no use any more
 }
 
+TEST_CASE("render tool: a signal that is ignored stays ignored, and the other one ends the render") {
+    const Tool tool;
+    make_scenes(tool);
+    tool.succeed(picture);
+    const std::string unbroken = tool.contents("x.exr");
+    const std::string wait = "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; kill ";
+    const Run ignoring = tool.run(picture + "--checkpoint 0", "trap '' TERM; " + wait + "-TERM $$) &");
+    CAPTURE(ignoring.err);
+    CHECK(ignoring.code == 0);
+    CHECK(ignoring.err.empty());
+    CHECK(tool.contents("x.exr") == unbroken);
+    check_failure(tool.run(picture + "--checkpoint 0", "trap '' TERM; " + wait + "-INT $$) &"), 130, "--resume");
+}
+
 TEST_CASE("render tool: a checkpoint that cannot be written costs no picture") {
     const Tool tool;
     make_scenes(tool);
