@@ -5,8 +5,8 @@
 #
 # usage: scripts/gallery.sh [FOLDER_OF_SCENES]
 set -euo pipefail
+folder=${1:+$(realpath "$1")} # before cd: it may be relative
 cd "$(dirname "$0")/.."
-folder=${1:-}
 boxwood=${BOXWOOD:-build/release/boxwood}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -15,7 +15,11 @@ trap 'rm -rf "$work"' EXIT
 picture() {
     local name=$1 scene=$2
     shift 2
-    "$boxwood" render "$scene" -o "$work/$name.exr" "$@" ${SPP:+--spp "$SPP"}
+    local options=("$@") i
+    for i in "${!options[@]}"; do # SPP instead of the number given
+        [ -z "${SPP:-}" ] || [ "${options[i]}" != --spp ] || options[i + 1]=$SPP
+    done
+    "$boxwood" render "$scene" -o "$work/$name.exr" "${options[@]}"
     cp "$work/$name.png" "scenes/$name.png"
 }
 
