@@ -80,6 +80,7 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
             ->check(CLI::Range(0u, 64u))
             ->type_name("N");
     command.add_option("--seed", options.seed, "Seed of the samples (default: 1); the same seed gives the same bytes")
+        ->check(CLI::NonNegativeNumber)
         ->type_name("N");
     add_words(command, "--sampler", options.sampler, to_sampler,
               "Points for the integrals: sobol (default), stratified or random");

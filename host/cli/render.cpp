@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include "boxwood/rays.hpp"
 #include "boxwood/render.hpp"
@@ -262,6 +264,19 @@ void run(const Arguments& arguments) {
     finish(arguments, result.work, options.light.samples);
 }
 
+/// Neither NaN, which CLI::Range lets pass, nor what becomes 0 as a float.
+CLI::Validator number_within(double least, double most) {
+    return CLI::Validator(
+        [least, most](const std::string& text) {
+            double value = 0.0;
+            if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+            std::ostringstream message;
+            message << text << " is no number from " << least << " to " << most;
+            return message.str();
+        },
+        "");
+}
+
 void add_picture_options(CLI::App& app, Arguments& arguments) {
     add_resolution(app, arguments.resolution);
     add_view(app, arguments.view);
@@ -273,10 +288,10 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--ao-distance", arguments.ao_distance,
                    "World units at which a surface occludes by e^-1, for ambient and ao (default: a tenth of the "
                    "scene's diagonal)")
-        ->check(CLI::PositiveNumber);
+        ->check(number_within(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()));
     app.add_option("--exposure", arguments.exposure,
                    "Stops by which the preview is brighter (default: what suits the picture)")
-        ->check(CLI::Range(-64.0f, 64.0f))
+        ->check(number_within(-64.0, 64.0))
         ->type_name("STOPS");
     std::vector<std::string> names = {"all"};
     for (const Aov aov : all_aovs()) names.emplace_back(name(aov));
@@ -300,7 +315,7 @@ Command add_render(CLI::App& tool) {
            "--checkpoint", arguments->checkpoint_seconds,
            "Save what is needed to go on, to IMAGE.exr.resume, after the sample during which so many seconds have "
            "passed; removed in the end. Ctrl-C saves it too")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_within(0.0, std::numeric_limits<double>::max()))
         ->type_name("SECONDS");
     app->add_flag("--resume", arguments->resume,
                   "Go on from IMAGE.exr.resume, with the other options as they were, to the same bytes");

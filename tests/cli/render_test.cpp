@@ -59,6 +59,11 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     check_failure(tool.run(render + "--exposure bright"), 2, "--exposure");
     check_failure(tool.run(render + "--ao-distance 0"), 2, "--ao-distance");
     check_failure(tool.run(render + "--checkpoint -1"), 2, "--checkpoint");
+    for (const std::string word : {"nan", "inf", "-inf"})
+        for (const std::string option : {"--exposure ", "--checkpoint ", "--ao-distance "})
+            check_failure(tool.run(render + option + word), 2, option.substr(0, option.size() - 1));
+    check_failure(tool.run(render + "--ao-distance 1e-60"), 2, "--ao-distance");
+    check_failure(tool.run(render + "--seed -1"), 2, "--seed");
     check_failure(tool.run(render + "--integrator normals --aov indirect"), 2, "normals");
     for (const std::string light : {"dawn", "1,2", "1,2,3,4", "1,-1,1", "1,nan,1", "1,2e18,1", "sky.png"}) {
         CAPTURE(light);
