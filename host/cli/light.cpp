@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/light.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -57,7 +58,8 @@ bool lit(const ShadingRequirements& scene, Integrator integrator) {
 
 LightOptions LightChoice::chosen() const {
     LightOptions chosen = options;
-    if (depth->count() == 0 && chosen.integrator == Integrator::ambient) chosen.depth = 2; // dissertation 3.7.7
+    if (depth->count() == 0 && chosen.integrator == Integrator::ambient) chosen.depth = 2;  // dissertation 3.7.7
+    if (chosen.integrator == Integrator::direct) chosen.depth = std::min(chosen.depth, 1u); // what is reported
     return chosen;
 }
 
@@ -73,12 +75,12 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
         .add_option("--spp", options.samples, "Samples per pixel (default: " + std::to_string(options.samples) + ")")
         ->check(CLI::Range(1u, 1u << 20))
         ->type_name("N");
-    choice.depth =
-        command
-            .add_option("--depth", options.depth,
-                        "Bounces of light, 0 to 64 (default: " + std::to_string(options.depth) + ", of ambient 2)")
-            ->check(CLI::Range(0u, 64u))
-            ->type_name("N");
+    choice.depth = command
+                       .add_option("--depth", options.depth,
+                                   "Bounces of light, 0 to 64 (default: " + std::to_string(options.depth) +
+                                       ", of ambient 2; of direct at most 1)")
+                       ->check(CLI::Range(0u, 64u))
+                       ->type_name("N");
     command.add_option("--seed", options.seed, "Seed of the samples (default: 1); the same seed gives the same bytes")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N");

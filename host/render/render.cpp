@@ -115,6 +115,7 @@ struct Render::State {
           environment(upload_environment(on, around)) {
         if (options.light.integrator == Integrator::ambient) ambient = make_ambient_light(on, appearance, around);
         if (options.light.primary == Primary::raster) rasteriser.emplace(on, scene, tree, geometry);
+        if (options.light.integrator == Integrator::direct) options.light.depth = std::min(options.light.depth, 1u);
         if (options.ao_distance == 0.0f) options.ao_distance = default_ao_distance(scene);
     }
 

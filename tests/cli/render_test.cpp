@@ -118,6 +118,10 @@ TEST_CASE("render tool: every integrator makes its picture, the same bytes each 
         const Json report = Json::parse(tool.contents("a.json"));
         CHECK(report["options"]["integrator"] == integrator);
         CHECK(report["render"]["rejected_samples"] == 0);
+        const int depth = integrator == "direct" ? 1 : integrator == "ambient" ? 2 : 6;
+        CHECK(report["options"]["depth"] == depth); // the one that is used, here and in the header: type, size, value
+        const std::string attribute = std::string("depth\0int\0\4\0\0\0", 14) + static_cast<char>(depth);
+        CHECK(tool.contents("a.exr").find(attribute) != std::string::npos);
     }
 }
 
