@@ -199,8 +199,8 @@ void check_distinct(const Arguments& arguments) {
 
 void check(const Arguments& arguments) {
     arguments.choice.check();
-    check_distinct(arguments);
     check_output(arguments.output, ".exr");
+    check_distinct(arguments);
     check_output(arguments.preview(), ".png");
     check_output(arguments.report, "");
     check_output(arguments.checkpoint(), "");
