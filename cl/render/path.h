@@ -11,6 +11,7 @@
 #include "render/lights.h"
 #include "render/pixel_beam.h"
 #include "render/sampler.h"
+#include "render/tangents.h"
 #include "shared/path.h"
 
 #if !defined(STRATEGY) || !defined(LIGHTS) || !defined(EMISSION)
@@ -82,15 +83,6 @@ INLINE bool usable(float3 c) {
 INLINE float power_heuristic(float pdf, float other) {
     const float ratio = other / pdf;
     return 1.0f / (1.0f + ratio * ratio);
-}
-
-/// Tangents of Duff et al. 2017, which need no branch and lose no digits near any pole.
-INLINE void tangents_of(float3 n, float3* tangent, float3* bitangent) {
-    const float sign = copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    const float b = n.x * n.y * a;
-    *tangent = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    *bitangent = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
 INLINE float3 into_frame(const Vertex* vertex, float3 v) {

@@ -5,6 +5,7 @@
 // compile:
 #include "render/random.h"
 #include "render/surface.h"
+#include "render/tangents.h"
 
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
@@ -22,14 +23,10 @@ inline Ray make_ray(float3 origin, float3 direction, float t_max) {
 /// A zero direction hits nothing.
 inline Ray null_ray(void) { return make_ray((float3)(0.0f), (float3)(0.0f), 0.0f); }
 
-/// `p` on the unit disk lifted to the hemisphere around `n`: density cos / pi (Malley). The tangents are those of Duff
-/// et al. 2017, which need no branch and lose no digits near any pole.
+/// `p` on the unit disk lifted to the hemisphere around `n`: density cos / pi (Malley).
 inline float3 cosine_direction(float3 n, float2 p) {
-    const float sign = copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    const float b = n.x * n.y * a;
-    const float3 tangent = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    const float3 bitangent = (float3)(b, sign + n.y * n.y * a, -n.y);
+    float3 tangent, bitangent;
+    tangents_of(n, &tangent, &bitangent);
     const float height = sqrt(1.0f - (p.x * p.x + p.y * p.y));
     return p.x * tangent + p.y * bitangent + height * n;
 }

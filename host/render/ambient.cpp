@@ -26,8 +26,6 @@ constexpr std::array<double, 9> squared_norms = {1.0 / (4 * pi),  3.0 / (4 * pi)
 /// What a Lambert surface makes of each degree, over pi.
 constexpr std::array<double, 9> lambert = {1.0, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25, 0.25, 0.25, 0.25, 0.25};
 
-std::string flag(bool needed) { return needed ? "1" : "0"; }
-
 Defines ambient_defines(const World& world, const LightOptions& options, bool lights, EnvironmentKind environment) {
     Defines defines = scene_defines(world.appearance.requirements, options.filter);
     defines["LIGHTS"] = flag(lights);

@@ -40,8 +40,6 @@ struct Fronts {
           before(make_scratch<std::uint32_t>(device, device.tuning().work_items + 1, "kept paths before")) {}
 };
 
-std::string flag(bool needed) { return needed ? "1" : "0"; }
-
 /// The programs of one world and its options.
 struct Programs {
     bool next_event;

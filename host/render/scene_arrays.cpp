@@ -3,8 +3,9 @@
 
 namespace boxwood {
 
+std::string flag(bool needed) { return needed ? "1" : "0"; }
+
 Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter) {
-    const auto flag = [](bool needed) { return std::string(needed ? "1" : "0"); };
     Defines defines{{"MATERIALS", flag(requirements.materials)}, {"NORMALS", flag(requirements.normals)},
                     {"TANGENTS", flag(requirements.tangents)},   {"UV_SETS", std::to_string(requirements.uv_sets)},
                     {"COLORS", flag(requirements.colors)},       {"TEXTURES", flag(requirements.textures)}};

@@ -2,12 +2,17 @@
 // What shading kernels share: macros and arguments (cl/render/scene_arrays.h).
 #pragma once
 
+#include <string>
+
 #include "boxwood/appearance.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/render_options.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
+
+/// The value of a macro that says whether something is needed.
+std::string flag(bool needed);
 
 /// The macros of cl/render/scene_arrays.h, and with textures that of cl/render/texture.h.
 Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter);
