@@ -3,7 +3,7 @@
 // each of which is orthogonal whatever the matrix, so that repeated and zero eigenvalues need no special case.
 #ifndef BOXWOOD_BOUNDS_EIGEN_H
 #define BOXWOOD_BOUNDS_EIGEN_H
-#include "bounds/vector.h"
+#include "runtime/vector.h"
 
 // JACOBI_SWEEPS  Converges quadratically: four sweeps take the entries off the diagonal of any float matrix below the
 //                rounding of those on it, the fifth is for the worst found by search. Where only the size of a box depends

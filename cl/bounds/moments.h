@@ -3,7 +3,7 @@
 // reference near the points and the second moment is about the mean, so nothing cancels far from the origin.
 #ifndef BOXWOOD_BOUNDS_MOMENTS_H
 #define BOXWOOD_BOUNDS_MOMENTS_H
-#include "bounds/vector.h"
+#include "runtime/vector.h"
 
 typedef struct Moments {
     Vector mean;          ///< Less the reference.

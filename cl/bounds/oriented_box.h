@@ -10,7 +10,7 @@
 // FALLBACK      1: a node keeps its AABB where its oriented box is not smaller; 0: never
 #ifndef BOXWOOD_BOUNDS_ORIENTED_BOX_H
 #define BOXWOOD_BOUNDS_ORIENTED_BOX_H
-#include "bounds/vector.h"
+#include "runtime/vector.h"
 #include "shared/aabb.h"
 #include "shared/obb.h"
 

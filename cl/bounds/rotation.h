@@ -4,7 +4,7 @@
 #ifndef BOXWOOD_BOUNDS_ROTATION_H
 #define BOXWOOD_BOUNDS_ROTATION_H
 #include "bounds/eigen.h"
-#include "bounds/vector.h"
+#include "runtime/vector.h"
 
 typedef struct Quaternion {
     real x, y, z, w;

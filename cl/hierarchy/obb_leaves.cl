@@ -4,7 +4,7 @@
 // SORTED_POINTS         1: the vertices are written in sorted order, x, y and z apart, for kinds that pass over them
 // MOMENTS               1: the moments of the vertices are written
 // POINTS_PER_PRIMITIVE  3, see hierarchy/obb_node.h
-// LANES, MEASURE_AREA, FALLBACK  see bounds/real.h and bounds/oriented_box.h
+// LANES, MEASURE_AREA, FALLBACK  see runtime/real.h and bounds/oriented_box.h
 // compile: SORTED_POINTS=1 MOMENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: SORTED_POINTS=0 MOMENTS=0 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "hierarchy/obb_node.h"

@@ -6,7 +6,7 @@
 //          rotation of the children's boxes; 3: the cascade: points where both children are leaves, corners and points where
 //          one is, else as 2
 // EXTENTS  1: the box is made here, from the children's boxes; 0: only its axes, the extents come from obb_ranges.cl
-// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h
+// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, runtime/real.h, bounds/oriented_box.h
 // compile: MERGE=0 EXTENTS=0 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=0 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: MERGE=1 EXTENTS=1 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=1 FALLBACK=0

@@ -13,7 +13,7 @@
 // PASS   0: the covariance of the points; its eigenvectors become the node's axes. 1: the box of the points along the axes.
 // CHUNK  primitives, see above
 // JACOBI_SWEEPS  see bounds/eigen.h
-// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h
+// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, runtime/real.h, bounds/oriented_box.h
 // compile: PASS=0 CHUNK=4096 JACOBI_SWEEPS=3 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: PASS=0 CHUNK=255 JACOBI_SWEEPS=2 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
 // compile: PASS=1 CHUNK=4096 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=1 FALLBACK=1

@@ -11,7 +11,7 @@
 //   refine_frames  their axes
 //
 // SMALLEST  primitives, see above
-// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, bounds/real.h, bounds/oriented_box.h; LANES is 1
+// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see hierarchy/obb_node.h, runtime/real.h, bounds/oriented_box.h; LANES is 1
 // compile: SMALLEST=256 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: SMALLEST=2 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/eigen.h"

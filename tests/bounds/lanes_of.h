@@ -3,7 +3,7 @@
 // from record `at` on; `count` is a multiple of LANES.
 #ifndef BOXWOOD_TESTS_LANES_OF_H
 #define BOXWOOD_TESTS_LANES_OF_H
-#include "bounds/vector.h"
+#include "runtime/vector.h"
 
 INLINE void load_components(global const float* in, uint count, uint at, real* values, uint size) {
     for (uint k = 0; k < size; ++k) values[k] = LOAD_LANES(in + k * count + at);

@@ -1,27 +1,37 @@
 // SPDX-License-Identifier: MIT
-// How many boxes a work-item treats at once: the code of oriented boxes is written on `real`, one float or eight. A
-// device of fat work-items takes eight, so that its vector units are used; the operations of a lane are the same, and so
-// are the results.
+// How many boxes or paths a work-item treats at once: the code of oriented boxes and of shading is written on `real`, one
+// float or eight. A device of fat work-items takes eight, so that its vector units are used; the operations of a lane are the
+// same, and so are the results.
 //
 // LANES  1 or 8
-#ifndef BOXWOOD_BOUNDS_REAL_H
-#define BOXWOOD_BOUNDS_REAL_H
+#ifndef BOXWOOD_RUNTIME_REAL_H
+#define BOXWOOD_RUNTIME_REAL_H
 #include "runtime/inline.h"
 #include "runtime/numerics.h"
 
 #if LANES == 8
 typedef float8 real;
 typedef int8 mask; ///< As comparisons give it: every bit of a lane, or none.
+typedef uint8 whole;
+typedef ulong8 wide;
 #define AS_INT(x) as_int8(x)
 #define AS_REAL(x) as_float8(x)
+#define TO_REAL(x) convert_float8(x)
+#define TO_WHOLE(x) convert_uint8(x)
+#define TO_WIDE(x) convert_ulong8(x)
 #define ANY(m) any(m)
 #define STORE_LANES(values, target) vstore8(values, 0, target)
 #define LOAD_LANES(source) vload8(0, source)
 #elif LANES == 1
 typedef float real;
 typedef int mask; ///< As comparisons give it: not zero where it holds.
+typedef uint whole;
+typedef ulong wide;
 #define AS_INT(x) as_int(x)
 #define AS_REAL(x) as_float(x)
+#define TO_REAL(x) ((float)(x))
+#define TO_WHOLE(x) ((uint)(x))
+#define TO_WIDE(x) ((ulong)(x))
 #define ANY(m) ((m) != 0)
 #define STORE_LANES(values, target) (*(target) = (values))
 #define LOAD_LANES(source) (*(source))
@@ -71,7 +81,7 @@ INLINE void transpose(float8* r) {
     } while (0)
 #define ROW(lane) (base + stride * (size_t)index[lane])
 
-/// v[k] = base[stride * index + k] of each lane's index, k < 8, and the same of six and of four floats.
+/// v[k] = base[stride * index + k] of each lane's index, k < 8, and the same of six, four and three floats. v has room for 8.
 INLINE void load_rows8(global const float* base, uint stride, const uint* index, real* v) {
 #define LOAD(lane) v[lane] = vload8(0, ROW(lane))
     EACH_LANE(LOAD);
@@ -86,6 +96,12 @@ INLINE void load_rows6(global const float* base, uint stride, const uint* index,
 }
 INLINE void load_rows4(global const float* base, uint stride, const uint* index, real* v) {
 #define LOAD(lane) v[lane] = (float8)(vload4(0, ROW(lane)), (float4)(0.0f))
+    EACH_LANE(LOAD);
+#undef LOAD
+    transpose(v);
+}
+INLINE void load_rows3(global const float* base, uint stride, const uint* index, real* v) {
+#define LOAD(lane) v[lane] = (float8)(vload3(0, ROW(lane)), 0.0f, (float4)(0.0f))
     EACH_LANE(LOAD);
 #undef LOAD
     transpose(v);
@@ -121,6 +137,9 @@ INLINE void load_rows6(global const float* base, uint stride, const uint* index,
 INLINE void load_rows4(global const float* base, uint stride, const uint* index, real* v) {
     vstore4(vload4(0, base + stride * (size_t)index[0]), 0, v);
 }
+INLINE void load_rows3(global const float* base, uint stride, const uint* index, real* v) {
+    vstore3(vload3(0, base + stride * (size_t)index[0]), 0, v);
+}
 INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
     vstore8(vload8(0, v), 0, base + stride * (size_t)index[0]);
 }
@@ -133,5 +152,6 @@ INLINE void store_rows4(real* v, global float* base, uint stride, const uint* in
 /// `yes` in the lanes where `condition`, a comparison, holds; else `no`.
 #define CHOOSE(condition, yes, no) select((no), (yes), (condition))
 #define CHOOSE_INT(condition, yes, no) select((mask)(no), (mask)(yes), (condition))
+#define NOT(condition) ((condition) == 0)
 
 #endif

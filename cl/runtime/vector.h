@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Vectors, symmetric matrices and frames of `real` lanes. Results go through pointers, for Oclgrind's sake.
-#ifndef BOXWOOD_BOUNDS_VECTOR_H
-#define BOXWOOD_BOUNDS_VECTOR_H
-#include "bounds/real.h"
+#ifndef BOXWOOD_RUNTIME_VECTOR_H
+#define BOXWOOD_RUNTIME_VECTOR_H
+#include "runtime/real.h"
 
 typedef struct Vector {
     real x, y, z;
@@ -27,6 +27,22 @@ INLINE real reach3(const Vector* p, const Vector* q) {
 INLINE void cross3(const Vector* p, const Vector* q, Vector* result) {
     const Vector r = {fma(p->y, q->z, -(p->z * q->y)), fma(p->z, q->x, -(p->x * q->z)),
                       fma(p->x, q->y, -(p->y * q->x))};
+    *result = r;
+}
+
+INLINE void add3(const Vector* p, const Vector* q, Vector* result) {
+    const Vector r = {p->x + q->x, p->y + q->y, p->z + q->z};
+    *result = r;
+}
+
+INLINE void subtract3(const Vector* p, const Vector* q, Vector* result) {
+    const Vector r = {p->x - q->x, p->y - q->y, p->z - q->z};
+    *result = r;
+}
+
+/// Component by component.
+INLINE void multiply3(const Vector* p, const Vector* q, Vector* result) {
+    const Vector r = {p->x * q->x, p->y * q->y, p->z * q->z};
     *result = r;
 }
 
@@ -59,6 +75,21 @@ INLINE void choose3(mask condition, const Vector* yes, Vector* v) {
     v->x = CHOOSE(condition, yes->x, v->x);
     v->y = CHOOSE(condition, yes->y, v->y);
     v->z = CHOOSE(condition, yes->z, v->z);
+}
+
+/// The first three floats of the row that each lane's index names.
+INLINE void load_vectors(global const float* base, uint stride, const uint* index, Vector* v) {
+    real row[8];
+    load_rows3(base, stride, index, row);
+    const Vector r = {row[0], row[1], row[2]};
+    *v = r;
+}
+
+/// The same in every lane.
+INLINE void spread3(float3 value, Vector* v) {
+    v->x = value.x;
+    v->y = value.y;
+    v->z = value.z;
 }
 
 INLINE void choose6(mask condition, const Symmetric* yes, Symmetric* m) {
