@@ -12,9 +12,9 @@
 // LIGHTS      1: there are punctual lights.
 // GROUP_SIZE  work-items per work-group.
 //
-// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ENVIRONMENT=0 LIGHTS=0 SAMPLER=2
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=1 TEXTURES=0 ENVIRONMENT=1 LIGHTS=1 SAMPLER=0
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ENVIRONMENT=2 LIGHTS=1 SAMPLER=1 FILTER=2
+// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ENVIRONMENT=0 LIGHTS=0 SAMPLER=2 LANES=8
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=1 TEXTURES=0 ENVIRONMENT=1 LIGHTS=1 SAMPLER=0 LANES=1
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ENVIRONMENT=2 LIGHTS=1 SAMPLER=1 FILTER=2 LANES=8
 #define ALPHA 0
 #define EMISSION 0
 #define SPECULAR 0
@@ -29,77 +29,136 @@
 // Dimensions of the sampler for each bounce.
 #define AMBIENT_DIMENSIONS 2u
 
-/// Radiance of the ambient light for a normal: irradiance over pi, from spherical harmonics up to the second degree, 9 times
+/// Radiance of the ambient light for normals: irradiance over pi, from spherical harmonics up to the second degree, 9 times
 /// R, G, B (Ramamoorthi and Hanrahan 2001), their constants multiplied in.
-inline float3 ambient_light(global const float* coefficients, float3 n) {
-    const float basis[9] = {1.0f,      n.y,       n.z,       n.x, n.x * n.y, n.y * n.z, 3.0f * n.z * n.z - 1.0f,
-                            n.x * n.z, n.x * n.x - n.y * n.y};
-    float3 sum = (float3)(0.0f);
-    for (uint k = 0; k < 9; ++k) sum += basis[k] * vload3(k, coefficients);
-    return fmax(sum, 0.0f); // the series swings below zero beside a small bright light
+INLINE void ambient_light(global const float* coefficients, const Vector* n, Vector* light) {
+    const real basis[9] = {(real)(1.0f), n->y,        n->z,
+                           n->x,         n->x * n->y, n->y * n->z,
+                           3.0f * n->z * n->z - 1.0f, n->x * n->z, n->x * n->x - n->y * n->y};
+    const real zero = 0.0f;
+    Vector sum = {zero, zero, zero}, coefficient;
+    for (uint k = 0; k < 9; ++k) {
+        spread3(vload3(k, coefficients), &coefficient);
+        add_scaled3(basis[k], &coefficient, &sum);
+    }
+    // The series swings below zero beside a small bright light.
+    const Vector positive = {larger(sum.x, zero), larger(sum.y, zero), larger(sum.z, zero)};
+    *light = positive;
 }
 
-/// A ray from the vertex by the cosine. Below the surface, where a bent normal may send it, it is mirrored.
-inline Ray cosine_ray(const Vertex* vertex, const Sampler* sampler, uint dimension) {
-    float3 direction = normalize_any(out_of_frame(vertex, sample_lambert(sample_square(sampler, dimension))));
-    const float3 normal = vertex->point.surface.normal;
-    direction -= normal * (2.0f * fmin(dot(direction, normal), 0.0f));
-    Ray ray;
-    vstore3(vertex->origin, 0, ray.origin);
-    ray.t_min = 0.0f;
-    vstore3(direction, 0, ray.direction);
-    ray.t_max = INFINITY;
-    return ray;
+/// Rays from vertices by the cosine. Below the surface, where a bent normal may send them, they are mirrored.
+INLINE void cosine_rays(const Vertex* vertex, const Sampler* sampler, uint dimension, Rays* rays) {
+    real u, v;
+    Vector wi, direction;
+    sample_square(sampler, (whole)(dimension), &u, &v);
+    sample_lambert(u, v, &wi);
+    out_of_frame(vertex, &wi, &direction);
+    normalise3(&direction);
+    const Vector* normal = &vertex->point.surface.normal;
+    add_scaled3(-2.0f * smaller(dot3(&direction, normal), (real)(0.0f)), normal, &direction);
+    const Rays r = {vertex->origin, direction, (real)(0.0f), (real)(INFINITY)};
+    *rays = r;
 }
 
-inline void null_ray(global Ray* ray) { vstore3((float3)(0.0f), 0, ray->direction); }
-
-/// The vertex where `ray` met a surface; false for a triangle without area. `first`: seen by the camera.
-inline bool vertex_at(const SceneArrays* scene, global const CameraRecord* camera, Ray ray, Hit hit, uint samples, bool first,
-                      Vertex* vertex) {
-    const float3 direction = vload3(0, ray.direction);
+/// The vertices where rays along `direction`, `first` those of the camera, met surfaces. Returns where those have an area.
+INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction, const Hits* hits,
+                          uint samples, bool first, Vertex* vertex) {
     Beam beam;
 #if TEXTURES
     // A diffuse ray stands for one of so many parts of the hemisphere.
     if (first)
-        pixel_beam(camera, direction, hit.t, 1.0f / sqrt((float)samples), &beam);
+        pixel_beam(camera, direction, hits->t, 1.0f / sqrt((float)samples), &beam);
     else
-        cone_beam(direction, hit.t * fmin(sqrt(M_PI_F / (float)samples), 1.0f), &beam);
+        cone_beam(direction, hits->t * fmin(sqrt(M_PI_F / (float)samples), 1.0f), &beam);
 #else
-    beam.x = beam.y = (float3)(0.0f);
     (void)camera;
     (void)samples;
     (void)first;
 #endif
-    shading_point(scene, ray, hit, beam, &vertex->point);
+    find_shading_point(scene, direction, hits, &beam, &vertex->point);
     make_vertex(direction, vertex);
-    return dot(vertex->point.surface.normal, vertex->point.surface.normal) > 0.0f;
+    return is_solid(&vertex->point.surface);
 }
 
 #if LIGHTS
-/// A shadow ray towards a punctual light chosen by power, and what arrives along it when it is free; else a null ray.
-inline float3 punctual_light(global const LightRecord* lights, global const float* distribution, uint count,
-                             const Vertex* vertex, float choice, global Ray* shadow_ray) {
+/// Shadow rays towards punctual lights chosen by power, and what arrives along them when they are free. Returns where there are
+/// any.
+INLINE mask punctual_light(global const LightRecord* lights, global const float* distribution, uint count,
+                           const Vertex* vertex, real choice, Rays* rays, Vector* light) {
     // Triangles that emit come behind, and have the rest of the distribution.
     const float all = distribution[count];
     choice *= all;
-    float probability;
-    const uint index = choose(distribution, count, &choice, &probability);
+    real probability;
+    uint index[LANES];
+    choose(distribution, count, &choice, &probability, index);
     LightSample sample;
-    sample_punctual(lights + index, vertex->origin, probability / all, &sample);
-    const float cosine = dot(sample.direction, vertex->point.normal);
-    const bool lit = cosine > 0.0f && dot(sample.direction, vertex->point.surface.normal) > 0.0f && usable(sample.value);
-    if (!lit) {
-        null_ray(shadow_ray);
-        return (float3)(0.0f);
-    }
-    vstore3(vertex->origin, 0, shadow_ray->origin);
-    shadow_ray->t_min = 0.0f;
-    vstore3(sample.segment, 0, shadow_ray->direction);
-    shadow_ray->t_max = sample.t_max;
-    return sample.value * (cosine * M_1_PI_F);
+    sample_punctual(lights, index, &vertex->origin, probability / all, &sample);
+    const real cosine = dot3(&sample.direction, &vertex->point.normal);
+    const Rays shadow = {vertex->origin, sample.segment, (real)(0.0f), sample.t_max};
+    *rays = shadow;
+    *light = sample.value;
+    scale3(cosine * M_1_PI_F, light);
+    return (cosine > 0.0f) & (dot3(&sample.direction, &vertex->point.surface.normal) > 0.0f) & usable(&sample.value);
 }
 #endif
+
+/// One bounce of a path in each lane.
+typedef struct Bounce {
+    Vector throughput;
+    Vector seen;   ///< What is shown as it is.
+    Vector light;  ///< What the light adds if the shadow ray is free,
+    Vector around; ///< and the ambient light if it is not occluded.
+    Rays shadow_rays, next_rays;
+} Bounce;
+
+/// What all paths of a launch share.
+typedef struct AmbientSettings {
+    global const CameraRecord* camera;
+    global const float* coefficients;
+    ulong seed;
+    uint sample, samples, first_pixel, bounce;
+} AmbientSettings;
+
+/// The bounces of paths, `index` within the batch, whose rays along `direction` met `hits`; `throughput` is given.
+INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* lights, global const float* light_distribution,
+                        uint light_count, const AmbientSettings* settings, const uint* index, const Vector* direction,
+                        const Hits* hits, Bounce* result) {
+    const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    result->seen = result->light = result->around = dark;
+    mask reflects = hits->some & bright(&result->throughput), lit = (mask)(0);
+    if (ANY(reflects)) {
+        Vertex vertex;
+        const mask met = reflects;
+        reflects &= find_vertices(scene, settings->camera, direction, hits, settings->samples, settings->bounce == 0, &vertex) &
+                    NOT(vertex.point.unlit);
+        multiply3(&result->throughput, &vertex.point.base_color, &result->throughput);
+        if (settings->bounce == 0) choose3(met, &vertex.point.emission, &result->seen);
+        choose3(met & vertex.point.unlit, &result->throughput, &result->seen);
+        const Sampler sampler = {random_key(settings->seed, TO_WIDE(LOAD_LANES(index)) + settings->first_pixel),
+                                 settings->sample, settings->samples};
+        const uint dimension = AMBIENT_DIMENSIONS * settings->bounce;
+#if LIGHTS
+        real choice, unused;
+        sample_square(&sampler, (whole)(dimension + 1), &choice, &unused);
+        lit = reflects & punctual_light(lights, light_distribution, light_count, &vertex, choice, &result->shadow_rays,
+                                        &result->light);
+        multiply3(&result->throughput, &result->light, &result->light);
+#else
+        (void)lights;
+        (void)light_distribution;
+        (void)light_count;
+#endif
+        ambient_light(settings->coefficients, &vertex.point.normal, &result->around);
+        multiply3(&result->throughput, &result->around, &result->around);
+        scale3(vertex.point.occlusion, &result->around);
+        cosine_rays(&vertex, &sampler, dimension, &result->next_rays);
+    }
+    choose3(NOT(lit), &dark, &result->light);
+    choose3(NOT(reflects), &dark, &result->around);
+    choose3(NOT(reflects), &dark, &result->throughput);
+    clear_rays(NOT(lit), &result->shadow_rays);
+    clear_rays(NOT(reflects), &result->next_rays);
+}
 
 /// Bounce number `bounce` of the paths of the pixels from `first_pixel` on, whose rays met `hits`. `throughputs` (3 floats per
 /// path, not read for the first bounce) are multiplied by the albedo, and are zero where a path ends. pending (6 floats) gets what
@@ -122,50 +181,46 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
 #endif
     };
 #endif
+    const AmbientSettings settings = {camera, coefficients, seed, sample, samples, first_pixel, bounce};
     const ulong begin = (ulong)get_global_id(0) * length;
-    const ulong end = min(begin + length, (ulong)count);
-    for (ulong i = begin; i < end; ++i) {
-        const Ray ray = rays[i];
-        const Hit hit = hits[i];
-        float3 throughput = bounce == 0 ? (float3)(1.0f) : vload3(i, throughputs);
-        float3 seen = (float3)(0.0f), light = seen, around_light = seen;
-        bool reflects = hit.primitive != BOXWOOD_NONE && (throughput.x > 0.0f || throughput.y > 0.0f || throughput.z > 0.0f);
-        Vertex vertex;
-        if (reflects) {
-            reflects = vertex_at(&scene, camera, ray, hit, samples, bounce == 0, &vertex);
-            const bool unlit = (vertex.point.flags & BOXWOOD_UNLIT) != 0;
-            if (unlit)
-                seen = throughput * vertex.point.base_color;
-            else if (bounce == 0)
-                seen = vertex.point.emission;
-            reflects = reflects && !unlit;
-        }
-#if ENVIRONMENT
-        if (bounce == 0 && hit.primitive == BOXWOOD_NONE)
-            seen = environment_radiance(&around, normalize_any(vload3(0, ray.direction)));
-#endif
-        throughput = reflects ? throughput * vertex.point.base_color : (float3)(0.0f);
-        null_ray(shadow_rays + i);
-        null_ray(next_rays + i);
-        if (reflects) {
-            const Sampler sampler = {random_key(seed, (ulong)first_pixel + i), sample, samples};
-            const uint dimension = AMBIENT_DIMENSIONS * bounce;
+    const uint end = (uint)min(begin + length, (ulong)count);
+    for (uint i = (uint)begin; i < end; i += LANES) {
+        const uint used = min((uint)LANES, end - i);
+        uint index[LANES];
+        lane_indices(i, used, index);
+        Rays view;
+        Hits met;
+        Bounce result;
+        load_rays(rays, index, &view);
+        load_hits(hits, index, &met);
+        if (bounce == 0)
+            spread3((float3)(1.0f), &result.throughput);
+        else
+            load_vectors(throughputs, 3, index, &result.throughput);
+        find_bounce(&scene, lights, light_distribution, light_count, &settings, index, &view.direction, &met, &result);
+        store_vectors(&result.throughput, throughputs, 3, index, used);
+        store_vectors(&result.light, pending, 6, index, used);
+        store_vectors(&result.around, pending + 3, 6, index, used);
+        store_rays(&result.next_rays, next_rays, index, used);
 #if LIGHTS
-            light = throughput * punctual_light(lights, light_distribution, light_count, &vertex,
-                                                sample_square(&sampler, dimension + 1).x, shadow_rays + i);
+        store_rays(&result.shadow_rays, shadow_rays, index, used);
 #endif
-            around_light = throughput * ambient_light(coefficients, vertex.point.normal) * vertex.point.occlusion;
-            next_rays[i] = cosine_ray(&vertex, &sampler, dimension);
-        }
-        vstore3(throughput, i, throughputs);
-        vstore3(light, 2 * i, pending);
-        vstore3(around_light, 2 * i + 1, pending);
         if (bounce == 0) {
-            vstore3(seen, i, direct);
-            vstore3((float3)(0.0f), i, indirect);
-            vstore3((float3)(0.0f), i, ambient);
+            const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+#if ENVIRONMENT
+            Vector sky;
+            real pdf;
+            environment_light(&around, &view.direction, &sky, &pdf);
+            choose3(NOT(met.some), &sky, &result.seen);
+#endif
+            store_vectors(&result.seen, direct, 3, index, used);
+            store_vectors(&dark, indirect, 3, index, used);
+            store_vectors(&dark, ambient, 3, index, used);
         } else {
-            vstore3(vload3(i, indirect) + seen, i, indirect);
+            Vector sum;
+            load_vectors(indirect, 3, index, &sum);
+            add3(&result.seen, &sum, &sum);
+            store_vectors(&sum, indirect, 3, index, used);
         }
     }
 }
@@ -202,14 +257,24 @@ occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, 
                global const Ray* rays, global const Hit* hits, uint count, uint length, global Ray* next_rays) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
-    const ulong end = min(begin + length, (ulong)count);
-    for (ulong i = begin; i < end; ++i) {
-        null_ray(next_rays + i);
-        Vertex vertex;
-        if (hits[i].primitive == BOXWOOD_NONE) continue;
-        if (!vertex_at(&scene, camera, rays[i], hits[i], samples, true, &vertex)) continue;
-        const Sampler sampler = {random_key(seed, (ulong)first_pixel + i), sample, samples};
-        next_rays[i] = cosine_ray(&vertex, &sampler, 0);
+    const uint end = (uint)min(begin + length, (ulong)count);
+    for (uint i = (uint)begin; i < end; i += LANES) {
+        const uint used = min((uint)LANES, end - i);
+        uint index[LANES];
+        lane_indices(i, used, index);
+        Rays view, next;
+        Hits met;
+        load_rays(rays, index, &view);
+        load_hits(hits, index, &met);
+        mask reflects = met.some;
+        if (ANY(reflects)) {
+            Vertex vertex;
+            reflects &= find_vertices(&scene, camera, &view.direction, &met, samples, true, &vertex);
+            const Sampler sampler = {random_key(seed, TO_WIDE(LOAD_LANES(index)) + first_pixel), sample, samples};
+            cosine_rays(&vertex, &sampler, 0, &next);
+        }
+        clear_rays(NOT(reflects), &next);
+        store_rays(&next, next_rays, index, used);
     }
 }
 

@@ -5,64 +5,83 @@
 //             32 derivatives of texture coordinates, 64 material, 128 instance, 256 primitive. The others may be null.
 // GROUP_SIZE  work-items per work-group.
 //
-// compile: PLANES=511 MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2
-// compile: PLANES=511 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=0 TEXTURES=1 FILTER=1
-// compile: PLANES=511 MATERIALS=0 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
-// compile: PLANES=12 MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=1 TEXTURES=1 FILTER=0
-// compile: PLANES=1 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
+// compile: PLANES=511 MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 LANES=8
+// compile: PLANES=511 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=0 TEXTURES=1 FILTER=1 LANES=1
+// compile: PLANES=511 MATERIALS=0 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=8
+// compile: PLANES=12 MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=1 TEXTURES=1 FILTER=0 LANES=1
+// compile: PLANES=1 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=8
 #include "render/pixel_beam.h"
 
 #if !defined(PLANES) || !defined(GROUP_SIZE)
 #error "define PLANES and GROUP_SIZE"
 #endif
 
-#define HAS_PLACES (PLANES & (4 | 8 | 32 | 64))
-#define HAS_BEAMS (UV_SETS && (PLANES & (4 | 8 | 32)))
+#define HAS_SPOTS (PLANES & (4 | 8 | 32))
 
-/// One pixel of all planes.
-typedef struct Pixel {
-    float3 position, geometric_normal, shading_normal, albedo;
-    float4 uv_derivatives;
-    uint material;
-} Pixel;
+/// One pixel of the planes in each lane; 0 where there is no hit.
+typedef struct Pixels {
+    Vector position, geometric_normal, shading_normal, albedo;
+    float4 uv_derivatives[LANES];
+    uint material[LANES];
+} Pixels;
 
-#if UV_SETS
-inline float4 uv_derivatives_of(const SceneArrays* scene, const Place* place) {
-    const float2 uv0 = vertex_uv(scene, place->corner.x, 0);
-    const float2 edge1 = vertex_uv(scene, place->corner.y, 0) - uv0;
-    const float2 edge2 = vertex_uv(scene, place->corner.z, 0) - uv0;
-    return (float4)(place->weight_x.x * edge1 + place->weight_x.y * edge2,
-                    place->weight_y.x * edge1 + place->weight_y.y * edge2);
-}
-#endif
-
-/// What the planes show of a hit.
-inline void find_pixel(const SceneArrays* scene, global const CameraRecord* camera, Ray ray, Hit hit, float share,
-                       Pixel* pixel) {
-#if HAS_PLACES
-    Place place;
-    place_of(scene, hit, &place);
-    pixel->material = place.material;
-#endif
-#if HAS_BEAMS
+/// What the planes show of hits, of which at least one is one; anything in the other lanes.
+INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction, const Hits* hits,
+                        float share, Pixels* pixels) {
+    Triangles triangles;
+    load_triangles(scene->positions, scene->triangles, scene->meshes, scene->instances, hits, &triangles);
+    material_numbers(scene, &triangles, pixels->material);
+#if HAS_SPOTS
+    Spot spots[LANES];
     Beam beam;
-    pixel_beam(camera, vload3(0, ray.direction), hit.t, share, &beam);
-    place_beam(scene, vload3(0, ray.direction), hit, beam, &place);
+    pixel_beam(camera, direction, hits->t, share, &beam);
+    find_spots(&triangles, pixels->material, direction, hits, &beam, spots);
 #endif
 #if PLANES & 7
-    const Surface surface = surface_at(scene->positions, scene->triangles, scene->meshes, scene->instances, ray, hit);
-    pixel->position = surface.point;
-    pixel->geometric_normal = surface.normal;
+    Surface surface;
+    find_surface(&triangles, direction, hits, &surface);
+    pixels->position = surface.point;
+    pixels->geometric_normal = surface.normal;
 #endif
 #if PLANES & 4
-    pixel->shading_normal = shading_normal(scene, &place, hit, surface, normalize_any(vload3(0, ray.direction)));
+    Vector view = *direction;
+    normalise_any3(&view);
+    shading_normal(scene, &triangles, hits, spots, &surface, &view, &pixels->shading_normal);
 #endif
 #if PLANES & 8
-    pixel->albedo = color_at(scene, &place).xyz;
+    float color[3][LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        const float4 c = color_at(scene, spots + lane);
+        color[0][lane] = c.x;
+        color[1][lane] = c.y;
+        color[2][lane] = c.z;
+    }
+    const Vector albedo = {LOAD_LANES(color[0]), LOAD_LANES(color[1]), LOAD_LANES(color[2])};
+    pixels->albedo = albedo;
 #endif
 #if UV_SETS && (PLANES & 32)
-    pixel->uv_derivatives = uv_derivatives_of(scene, &place);
+    for (uint lane = 0; lane < LANES; ++lane) {
+        float2 uv, along_x, along_y;
+        uv_at(scene, spots + lane, 0, &uv, &along_x, &along_y);
+        pixels->uv_derivatives[lane] = (float4)(along_x, along_y);
+    }
 #endif
+}
+
+/// What the planes show where there is no hit.
+INLINE void clear_pixels(mask condition, Pixels* pixels) {
+    const Vector zero = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    choose3(condition, &zero, &pixels->position);
+    choose3(condition, &zero, &pixels->geometric_normal);
+    choose3(condition, &zero, &pixels->shading_normal);
+    choose3(condition, &zero, &pixels->albedo);
+    int clears[LANES];
+    STORE_LANES(condition, clears);
+    for (uint lane = 0; lane < LANES; ++lane) {
+        if (!clears[lane]) continue;
+        pixels->uv_derivatives[lane] = (float4)(0.0f);
+        pixels->material[lane] = BOXWOOD_NONE;
+    }
 }
 
 /// Element i of every plane is what rays[i] met at hits[i]. A work-item writes `length` consecutive ones of the `count`. No
@@ -74,37 +93,46 @@ g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* 
          global uint* out_materials, global uint* out_instances, global uint* primitives) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
-    const ulong end = min(begin + length, (ulong)count);
-    for (ulong i = begin; i < end; ++i) {
-        const float3 zero = (float3)(0.0f);
-        Pixel pixel = {zero, zero, zero, zero, (float4)(0.0f), BOXWOOD_NONE};
-        if (hits[i].primitive != BOXWOOD_NONE) find_pixel(&scene, camera, rays[i], hits[i], share, &pixel);
+    const uint end = (uint)min(begin + length, (ulong)count);
+    for (uint i = (uint)begin; i < end; i += LANES) {
+        const uint used = min((uint)LANES, end - i);
+        uint index[LANES];
+        lane_indices(i, used, index);
+        Rays view;
+        Hits met;
+        Pixels pixels;
+        load_rays(rays, index, &view);
+        load_hits(hits, index, &met);
+        if (ANY(met.some)) find_pixels(&scene, camera, &view.direction, &met, share, &pixels);
+        clear_pixels(NOT(met.some), &pixels);
 #if PLANES & 1
-        vstore3(pixel.position, i, out_positions);
+        store_vectors(&pixels.position, out_positions, 3, index, used);
 #endif
 #if PLANES & 2
-        vstore3(pixel.geometric_normal, i, geometric_normals);
+        store_vectors(&pixels.geometric_normal, geometric_normals, 3, index, used);
 #endif
 #if PLANES & 4
-        vstore3(pixel.shading_normal, i, shading_normals);
+        store_vectors(&pixels.shading_normal, shading_normals, 3, index, used);
 #endif
 #if PLANES & 8
-        vstore3(pixel.albedo, i, albedos);
+        store_vectors(&pixels.albedo, albedos, 3, index, used);
 #endif
+        for (uint k = 0; k < used; ++k) {
 #if PLANES & 16
-        depths[i] = hits[i].t;
+            depths[i + k] = hits[i + k].t;
 #endif
 #if PLANES & 32
-        vstore4(pixel.uv_derivatives, i, uv_derivatives);
+            vstore4(pixels.uv_derivatives[k], i + k, uv_derivatives);
 #endif
 #if PLANES & 64
-        out_materials[i] = pixel.material;
+            out_materials[i + k] = pixels.material[k];
 #endif
 #if PLANES & 128
-        out_instances[i] = hits[i].instance;
+            out_instances[i + k] = hits[i + k].instance;
 #endif
 #if PLANES & 256
-        primitives[i] = hits[i].primitive;
+            primitives[i + k] = hits[i + k].primitive;
 #endif
+        }
     }
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Shading of a queue of rays and their hits: each path gathers light, asks for a shadow ray, and goes on or ends. Macros:
-// render/path.h.
+// render/path.h, and
 //
 // GROUP_SIZE  work-items per work-group.
-// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=0 STRATEGY=0 SAMPLER=2
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=1 STRATEGY=0 SAMPLER=2
-// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=1 EMISSION=1 LIGHTS=1 ENVIRONMENT=0 STRATEGY=0 SAMPLER=1
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=0 SAMPLER=2 FILTER=2
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=1 COLORS=0 TEXTURES=1 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=1 SAMPLER=0 FILTER=1
-// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=1 STRATEGY=2 SAMPLER=2
-// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=1 ENVIRONMENT=0 STRATEGY=2 SAMPLER=2
+// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=0 STRATEGY=0 SAMPLER=2 LANES=8
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=1 STRATEGY=0 SAMPLER=2 LANES=1
+// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=1 EMISSION=1 LIGHTS=1 ENVIRONMENT=0 STRATEGY=0 SAMPLER=1 LANES=8
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=0 SAMPLER=2 FILTER=2 LANES=1
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=1 COLORS=0 TEXTURES=1 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=1 SAMPLER=0 FILTER=1 LANES=8
+// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=1 STRATEGY=2 SAMPLER=2 LANES=1
+// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=1 ENVIRONMENT=0 STRATEGY=2 SAMPLER=2 LANES=8
 #include "render/path.h"
 #include "render/path_sum.h"
 
@@ -17,113 +17,194 @@
 #error "define GROUP_SIZE"
 #endif
 
-/// What a path does with its hit, beside going on.
+/// What paths do with their hits, beside going on.
 typedef struct Gathered {
-    float3 light;       ///< Radiance along the ray, times the throughput.
-    float3 shadow;      ///< What the shadow ray stands for, times the throughput.
-    PathRay shadow_ray;
-    bool has_shadow;
+    Vector light;  ///< Radiance along the ray, times the throughput.
+    Vector shadow; ///< What the shadow ray stands for, times the throughput.
+    Rays shadow_rays;
+    mask has_shadow;
 } Gathered;
 
-/// Follows one path at its hit. Returns whether it goes on, with `path` and `ray` as they then are.
-INLINE bool follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera, Hit hit,
-                   Path* path, PathRay* ray, Gathered* gathered) {
-    const uint bounces = path->counts & 0xffffu, layers = path->counts >> 16;
-    const float3 direction = ray->direction, throughput = path->throughput;
-    gathered->light = (float3)(0.0f);
-    gathered->has_shadow = false;
-    if (hit.primitive == BOXWOOD_NONE) {
-        gathered->light = throughput * sky_light(world, direction, bounces == 0, path->pdf);
-        return false;
-    }
-    if (bounces >= settings->depth && !may_shine(&world->scene, hit)) return false;
-    const Sampler sampler = {random_key(settings->seed, (ulong)settings->first_pixel + path->pixel), settings->sample,
-                             settings->samples};
-    Beam beam;
-    const float width = fma(path->spread, hit.t, path->width);
+/// The beams where they meet the surfaces; `width` is that of the path's cone.
+INLINE void find_beam(global const CameraRecord* camera, const PathSettings* settings, const Vector* direction, real t,
+                      mask first, real width, Beam* beam) {
 #if TEXTURES
-    if (bounces == 0)
-        pixel_beam(camera, direction, hit.t, 1.0f / sqrt((float)settings->samples), &beam);
-    else
-        cone_beam(direction, width, &beam);
+    cone_beam(direction, width, beam);
+    if (!ANY(first)) return;
+    Beam of_pixel;
+    pixel_beam(camera, direction, t, 1.0f / sqrt((float)settings->samples), &of_pixel);
+    choose3(first, &of_pixel.x, &beam->x);
+    choose3(first, &of_pixel.y, &beam->y);
 #else
-    beam.x = beam.y = (float3)(0.0f);
     (void)camera;
+    (void)settings;
+    (void)direction;
+    (void)t;
+    (void)first;
+    (void)width;
+    (void)beam;
 #endif
+}
+
+/// Paths that pass a surface because of its alpha go on behind it.
+INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_before, real t, Paths* paths, Rays* rays) {
+    choose3(passes, &before->throughput, &paths->throughput);
+    paths->pdf = CHOOSE(passes, before->pdf, paths->pdf);
+    paths->width = CHOOSE(passes, before->width, paths->width);
+    paths->spread = CHOOSE(passes, before->spread, paths->spread);
+    paths->bounces = CHOOSE(passes, before->bounces, paths->bounces);
+    paths->layers = CHOOSE(passes, before->layers + 1, before->layers);
+    choose3(passes, &rays_before->origin, &rays->origin);
+    choose3(passes, &rays_before->direction, &rays->direction);
+    rays->t_min = CHOOSE(passes, t, rays->t_min);
+    rays->t_max = CHOOSE(passes, rays_before->t_max, rays->t_max);
+}
+
+/// Follows paths at the surfaces on which the lanes of `met` are. Returns which go on, with `paths` and `rays` as they then are.
+INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,
+                           const Hits* hits, mask met, Paths* paths, Rays* rays, Gathered* gathered) {
+    const Sampler sampler = {random_key(settings->seed, TO_WIDE(paths->pixel) + settings->first_pixel), settings->sample,
+                             settings->samples};
+    const Vector direction = rays->direction;
+    const mask first = paths->bounces == 0;
+    const real width = fma(paths->spread, hits->t, paths->width);
+    real u, v;
+    Beam beam;
     Vertex vertex;
-    find_shading_point(&world->scene, direction, hit, beam, &vertex.point);
+    find_beam(camera, settings, &direction, hits->t, first, width, &beam);
+    find_shading_point(&world->scene, &direction, hits, &beam, &vertex.point);
 #if ALPHA
-    const float alpha = vertex.point.alpha;
-    if (alpha < 1.0f && sample_square(&sampler, ALPHA_DIMENSION + layers).x >= alpha) {
-        ray->t_min = hit.t;
-        path->counts += 0x10000u;
-        return layers < BOXWOOD_MOST_LAYERS;
+    const Paths before = *paths;
+    const Rays rays_before = *rays;
+    sample_square(&sampler, ALPHA_DIMENSION + paths->layers, &u, &v);
+    const mask passes = met & (vertex.point.alpha < 1.0f) & (u >= vertex.point.alpha);
+    met &= NOT(passes);
+#endif
+    Vector light;
+    surface_light(world, &vertex.point, &direction, hits, first, paths->pdf, &light);
+    choose3(met, &light, &gathered->light);
+
+    mask goes_on = met & NOT(vertex.point.unlit) & (paths->bounces < settings->depth) & is_solid(&vertex.point.surface);
+    if (ANY(goes_on)) {
+        make_vertex(&direction, &vertex);
+        const whole dimension = paths->bounces * BOUNCE_DIMENSIONS;
+        real light_choice, lobe_choice;
+        sample_square(&sampler, dimension + CHOICE_DIMENSION, &light_choice, &lobe_choice);
+#if NEXT_EVENT
+        sample_square(&sampler, dimension + LIGHT_DIMENSION, &u, &v);
+        gathered->has_shadow =
+            goes_on & next_event(world, &vertex, light_choice, u, v, &gathered->shadow_rays, &gathered->shadow);
+#endif
+        goes_on &= scatter_paths(&vertex, settings, &sampler, dimension, lobe_choice, width, paths, rays);
     }
+#if ALPHA
+    pass_surfaces(passes, &before, &rays_before, hits->t, paths, rays);
+    goes_on |= passes & (before.layers < BOXWOOD_MOST_LAYERS);
+#endif
+    return goes_on;
+}
+
+/// Follows paths at their hits. Returns which go on, with `paths` and `rays` as they then are.
+INLINE mask follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera, const Hits* hits,
+                   Paths* paths, Rays* rays, Gathered* gathered) {
+    const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, throughput = paths->throughput;
+    gathered->light = gathered->shadow = dark;
+    gathered->has_shadow = (mask)(0);
+    const mask missed = NOT(hits->some);
+    if (ANY(missed)) {
+        Vector light;
+        sky_light(world, &rays->direction, paths->bounces == 0, paths->pdf, &light);
+        choose3(missed, &light, &gathered->light);
+    }
+    mask goes_on = (mask)(0), met = hits->some;
+    const mask last = paths->bounces >= settings->depth;
+    if (ANY(met & last)) met &= NOT(last) | may_shine(&world->scene, hits);
+    if (ANY(met)) goes_on = leave_surfaces(world, settings, camera, hits, met, paths, rays, gathered);
+    multiply3(&throughput, &gathered->light, &gathered->light);
+    multiply3(&throughput, &gathered->shadow, &gathered->shadow);
+    gathered->has_shadow &= usable(&gathered->shadow);
+    return goes_on;
+}
+
+/// Paths at the camera, of the pixels from `first` on.
+INLINE void begin_paths(global const CameraRecord* camera, uint samples, const uint* pixel, Paths* paths) {
+    const real zero = 0.0f, one = 1.0f;
+    const Paths fresh = {{one, one, one}, zero, zero, zero, LOAD_LANES(pixel), (whole)(0), (whole)(0)};
+    *paths = fresh;
+#if TEXTURES
+    // The cone of a pixel, for paths that pass its surface or leave it: as wide as the longer side.
+    const float3 right = vload3(0, camera->right), up = vload3(0, camera->up);
+    const float width = 2.0f * fmax(length(right), length(up)) / sqrt((float)samples);
+    if (camera->perspective)
+        paths->spread = width;
+    else
+        paths->width = width;
 #else
-    (void)layers;
+    (void)camera;
+    (void)samples;
 #endif
-    gathered->light = throughput * surface_light(world, &vertex.point, direction, hit, bounces == 0, path->pdf);
-    // A triangle without area has no normal.
-    const bool solid = dot(vertex.point.surface.normal, vertex.point.surface.normal) > 0.0f;
-    if ((vertex.point.flags & BOXWOOD_UNLIT) || bounces >= settings->depth || !solid) return false;
-
-    make_vertex(direction, &vertex);
-    const uint dimension = bounces * BOUNCE_DIMENSIONS;
-    const float2 choice = sample_square(&sampler, dimension + CHOICE_DIMENSION);
-#if NEXT_EVENT
-    gathered->has_shadow = next_event(world, &vertex, choice.x, sample_square(&sampler, dimension + LIGHT_DIMENSION),
-                                      &gathered->shadow_ray, &gathered->shadow);
-    gathered->shadow *= throughput;
-#endif
-    return scatter_path(&vertex, settings, &sampler, dimension, choice.y, width, path, ray);
 }
 
-INLINE void load_ray(global const Ray* from, PathRay* ray) {
-    ray->origin = vload3(0, from->origin);
-    ray->t_min = from->t_min;
-    ray->direction = vload3(0, from->direction);
-    ray->t_max = from->t_max;
+INLINE void load_paths(global const PathState* states, const uint* index, Paths* paths) {
+    real row[8];
+    load_rows8(states->throughput, 8, index, row);
+    const whole counts = AS_WHOLE(row[5]);
+    const Paths p = {{row[0], row[1], row[2]}, row[3], row[6], row[7], AS_WHOLE(row[4]), counts & 0xffffu, counts >> 16};
+    *paths = p;
 }
 
-INLINE void store_ray(const PathRay* ray, global Ray* to) {
-    vstore3(ray->origin, 0, to->origin);
-    to->t_min = ray->t_min;
-    vstore3(ray->direction, 0, to->direction);
-    to->t_max = ray->t_max;
-}
-
-INLINE void load_path(global const PathState* from, Path* path) {
-    path->throughput = vload3(0, from->throughput);
-    path->pdf = from->pdf;
-    path->pixel = from->pixel;
-    path->counts = from->counts;
-    path->width = from->width;
-    path->spread = from->spread;
-}
-
-INLINE void store_path(const Path* path, global PathState* to) {
-    vstore3(path->throughput, 0, to->throughput);
-    to->pdf = path->pdf;
-    to->pixel = path->pixel;
-    to->counts = path->counts;
-    to->width = path->width;
-    to->spread = path->spread;
+INLINE void store_paths(const Paths* paths, global PathState* states, const uint* index, uint count) {
+    real row[8] = {paths->throughput.x,      paths->throughput.y,
+                   paths->throughput.z,      paths->pdf,
+                   AS_REAL(paths->pixel),    AS_REAL(paths->bounces | paths->layers << 16),
+                   paths->width,             paths->spread};
+    store_rows8(row, states->throughput, 8, index, count);
 }
 
 #if NEXT_EVENT
-/// A ray with a zero direction hits nothing.
-INLINE void store_shadow(const Gathered* gathered, uint pixel, bool indirect, global Ray* ray, global ShadowLight* light) {
-    const bool wanted = gathered->has_shadow && usable(gathered->shadow);
-    light->pixel = wanted ? pixel | (indirect ? BOXWOOD_INDIRECT : 0u) : BOXWOOD_NONE;
-    if (wanted) {
-        store_ray(&gathered->shadow_ray, ray);
-        vstore3(gathered->shadow, 0, light->value);
-    } else {
-        const PathRay none = {(float3)(0.0f), (float3)(0.0f), 0.0f, 0.0f};
-        store_ray(&none, ray);
+INLINE void store_shadows(Gathered* gathered, const Paths* paths, mask indirect, global Ray* rays, global ShadowLight* lights,
+                          const uint* index, uint count) {
+    clear_rays(NOT(gathered->has_shadow), &gathered->shadow_rays);
+    store_rays(&gathered->shadow_rays, rays, index, count);
+    const whole pixel = paths->pixel | CHOOSE(indirect, (whole)(BOXWOOD_INDIRECT), (whole)(0));
+    real row[8] = {gathered->shadow.x, gathered->shadow.y, gathered->shadow.z,
+                   AS_REAL(CHOOSE(gathered->has_shadow, pixel, (whole)(BOXWOOD_NONE)))};
+    store_rows4(row, lights->value, 4, index, count);
+}
+#endif
+
+/// Adds the light of the first `count` lanes to their pixels, of which there is one each.
+INLINE void add_gathered(const Vector* light, const Paths* paths, mask indirect, uint count, global float* direct_sum,
+                         global float* indirect_sum) {
+    const mask some = usable(light) & bright(light);
+    if (!ANY(some)) return;
+    float value[3][LANES];
+    uint pixel[LANES];
+    int wanted[LANES], to_indirect[LANES];
+    STORE_LANES(light->x, value[0]);
+    STORE_LANES(light->y, value[1]);
+    STORE_LANES(light->z, value[2]);
+    STORE_LANES(paths->pixel, pixel);
+    STORE_LANES(some, wanted);
+    STORE_LANES(indirect, to_indirect);
+    for (uint lane = 0; lane < count; ++lane) {
+        if (!wanted[lane]) continue;
+        global float* sum = to_indirect[lane] ? indirect_sum : direct_sum;
+        add_light((float3)(value[0][lane], value[1][lane], value[2][lane]), sum + 3 * (size_t)pixel[lane]);
     }
 }
-#endif
+
+/// Where the lanes that go on are kept; the others name the place of the next one, which overwrites them. Returns the place
+/// behind all.
+INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
+    int keeps[LANES];
+    STORE_LANES(goes_on, keeps);
+    for (uint lane = 0; lane < LANES; ++lane) {
+        index[lane] = place;
+        place += lane < count && keeps[lane];
+    }
+    return place;
+}
 
 /// Follows the `count` paths of `states`, rays[i] having met hits[i]; with `first`, the paths begin at the camera, pixel i of the
 /// batch with rays[i], states and light are not read. A slice is `length` consecutive paths. direct and indirect (3 per pixel)
@@ -158,30 +239,34 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
     const PathSettings settings = {seed, sample, samples, depth, first_pixel};
     const uint begin = slice * length, end = begin + min(length, count - begin);
     uint place = begin;
-    for (uint i = begin; i < end; ++i) {
-        Path path;
+    for (uint i = begin; i < end; i += LANES) {
+        const uint used = min((uint)LANES, end - i);
+        uint index[LANES], to[LANES];
+        lane_indices(i, used, index);
+        Paths paths;
         if (first) {
-            const Path fresh = {(float3)(1.0f), 0.0f, i, 0, 0.0f, 0.0f};
-            path = fresh;
-            vstore3((float3)(0.0f), i, direct);
-            vstore3((float3)(0.0f), i, indirect);
+            begin_paths(camera, samples, index, &paths);
+            for (uint k = 0; k < used; ++k) {
+                vstore3((float3)(0.0f), i + k, direct);
+                vstore3((float3)(0.0f), i + k, indirect);
+            }
         } else {
-            load_path(states + i, &path);
+            load_paths(states, index, &paths);
         }
-        PathRay ray;
-        load_ray(rays + i, &ray);
-        const uint bounces = path.counts & 0xffffu;
+        Rays ray_lanes;
+        Hits met;
+        load_rays(rays, index, &ray_lanes);
+        load_hits(hits, index, &met);
+        const whole bounces = paths.bounces;
         Gathered gathered;
-        const bool goes_on = follow(&world, &settings, camera, hits[i], &path, &ray, &gathered);
-        if (usable(gathered.light)) add_light(gathered.light, (bounces <= 1 ? direct : indirect) + 3 * (size_t)path.pixel);
+        const mask goes_on = follow(&world, &settings, camera, &met, &paths, &ray_lanes, &gathered);
+        add_gathered(&gathered.light, &paths, bounces > 1, used, direct, indirect);
 #if NEXT_EVENT
-        store_shadow(&gathered, path.pixel, bounces > 0, shadow_rays + i, shadow_lights + i);
+        store_shadows(&gathered, &paths, bounces > 0, shadow_rays, shadow_lights, index, used);
 #endif
-        if (goes_on) {
-            store_ray(&ray, next_rays + place);
-            store_path(&path, states + place);
-            ++place;
-        }
+        place = keep_lanes(goes_on, used, place, to);
+        store_rays(&ray_lanes, next_rays, to, used);
+        store_paths(&paths, states, to, used);
     }
     kept[slice] = place - begin;
     if (slice == slices - 1) kept[slices] = 0;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-// One bounce of a path: what it gathers at a surface and where it goes on. Macros: those of the headers included here, and
+// One bounce of paths, one path per lane: what they gather at a surface and where they go on. Macros: those of the headers
+// included here, and
 //
 // STRATEGY  how direct light is sampled: 0 both ways, with the power heuristic (Veach 1997); 1 towards lights; 2 by the surface
 //           (lights without extent always towards them)
 // LIGHTS    1: there are lights to sample towards
 #ifndef BOXWOOD_RENDER_PATH_H
 #define BOXWOOD_RENDER_PATH_H
-#include "render/bsdf.h"
 #include "render/environment.h"
 #include "render/lights.h"
-#include "render/pixel_beam.h"
 #include "render/sampler.h"
-#include "render/tangents.h"
+#include "render/vertex.h"
 #include "shared/path.h"
 
 #if !defined(STRATEGY) || !defined(LIGHTS) || !defined(EMISSION)
@@ -53,203 +52,169 @@ typedef struct PathWorld {
 #endif
 } PathWorld;
 
-/// A Ray and a PathState as vectors: their arrays would be kept in memory.
-typedef struct PathRay {
-    float3 origin, direction;
-    float t_min, t_max;
-} PathRay;
+/// A PathState in each lane.
+typedef struct Paths {
+    Vector throughput;
+    real pdf, width, spread;
+    whole pixel, bounces, layers;
+} Paths;
 
-typedef struct Path {
-    float3 throughput;
-    float pdf;
-    uint pixel, counts;
-    float width, spread;
-} Path;
-
-/// Where a path meets a surface: the frame of the shading normal, and the way back in it.
-typedef struct Vertex {
-    ShadingPoint point;
-    float3 tangent, bitangent;
-    float3 origin; ///< Of rays that leave.
-    float3 wo;
-    Bsdf bsdf;
-} Vertex;
-
-INLINE bool usable(float3 c) {
-    return c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f && c.x < INFINITY && c.y < INFINITY && c.z < INFINITY;
+INLINE mask usable(const Vector* c) {
+    return (c->x >= 0.0f) & (c->y >= 0.0f) & (c->z >= 0.0f) & (c->x < INFINITY) & (c->y < INFINITY) & (c->z < INFINITY);
 }
 
+INLINE mask bright(const Vector* c) { return (c->x > 0.0f) | (c->y > 0.0f) | (c->z > 0.0f); }
+
 /// Weight of a sample of density `pdf` beside the other strategy's (the power heuristic with exponent 2).
-INLINE float power_heuristic(float pdf, float other) {
-    const float ratio = other / pdf;
+INLINE real power_heuristic(real pdf, real other) {
+    const real ratio = other / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-INLINE float3 into_frame(const Vertex* vertex, float3 v) {
-    return (float3)(dot(v, vertex->tangent), dot(v, vertex->bitangent), dot(v, vertex->point.normal));
-}
-
-INLINE float3 out_of_frame(const Vertex* vertex, float3 v) {
-    return v.x * vertex->tangent + v.y * vertex->bitangent + v.z * vertex->point.normal;
-}
-
-/// The beam of a cone of `width`.
-INLINE void cone_beam(float3 direction, float width, Beam* beam) {
-    tangents_of(direction, &beam->x, &beam->y);
-    beam->x *= width;
-    beam->y *= width;
-}
-
-INLINE void make_vertex(float3 direction, Vertex* vertex) {
-    const ShadingPoint* point = &vertex->point;
-    tangents_of(point->normal, &vertex->tangent, &vertex->bitangent);
-    vertex->origin = surface_origin(point->surface);
-    vertex->wo = into_frame(vertex, -direction);
-    make_bsdf(point->base_color, point->metallic, point->roughness, point->specular, &vertex->bsdf);
-}
-
-/// Radiance that comes along a ray which met nothing, by its share among the strategies.
-INLINE float3 sky_light(const PathWorld* world, float3 direction, bool first, float pdf) {
+/// Radiance that comes along rays which met nothing, by its share among the strategies.
+INLINE void sky_light(const PathWorld* world, const Vector* direction, mask first, real pdf, Vector* light) {
 #if ENVIRONMENT
-#if STRATEGY == 1
-    if (!first) return (float3)(0.0f);
-#endif
-    float other;
-    const float3 radiance = environment_light(&world->environment, direction, &other);
-    (void)pdf;
-    (void)first;
+    real other;
+    environment_light(&world->environment, direction, light, &other);
 #if STRATEGY == 0
-    if (!first) return power_heuristic(pdf, ENVIRONMENT_SHARE * other) * radiance;
+    scale3(CHOOSE(first, (real)(1.0f), power_heuristic(pdf, ENVIRONMENT_SHARE * other)), light);
+#elif STRATEGY == 1
+    scale3(CHOOSE(first, (real)(1.0f), (real)(0.0f)), light);
 #endif
-    return radiance;
 #else
+    const Vector none = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    *light = none;
     (void)world;
     (void)direction;
+#endif
     (void)first;
     (void)pdf;
-    return (float3)(0.0f);
-#endif
 }
 
-/// Radiance that a surface sends back along a ray, by its share among the strategies.
-INLINE float3 surface_light(const PathWorld* world, const ShadingPoint* point, float3 direction, Hit hit, bool first,
-                            float pdf) {
-    if (point->flags & BOXWOOD_UNLIT) return point->base_color;
-    float3 light = point->emission;
+/// Radiance that surfaces send back along rays, by its share among the strategies.
+INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Vector* direction, const Hits* hits,
+                          mask first, real pdf, Vector* light) {
+    *light = point->emission;
 #if EMISSION && LIGHTS && STRATEGY != 2
-    if (!first && (light.x > 0.0f || light.y > 0.0f || light.z > 0.0f)) {
-        const float cosine = -dot(direction, point->surface.normal);
-        const float other = LIGHT_SHARE * triangle_pdf(&world->lights, hit, hit.t, cosine);
+    const mask shared = bright(light) & NOT(first);
+    if (ANY(shared)) {
+        const real cosine = -dot3(direction, &point->surface.normal);
+        const real other = LIGHT_SHARE * triangle_pdf(&world->lights, hits->instance, hits->primitive, hits->t, cosine);
 #if STRATEGY == 0
-        light *= power_heuristic(pdf, other);
+        scale3(CHOOSE(shared, power_heuristic(pdf, other), (real)(1.0f)), light);
 #else
-        if (other > 0.0f) return (float3)(0.0f);
+        scale3(CHOOSE(shared & (other > 0.0f), (real)(0.0f), (real)(1.0f)), light);
 #endif
     }
 #endif
+    choose3(point->unlit, &point->base_color, light);
     (void)world;
     (void)direction;
-    (void)hit;
+    (void)hits;
     (void)first;
     (void)pdf;
-    return light;
 }
 
-/// Whether a hit may give light or let it pass: where no bounce is left, nothing else counts.
-INLINE bool may_shine(const SceneArrays* scene, Hit hit) {
+/// Which hits may give light or let it pass: where no bounce is left, nothing else counts.
+INLINE mask may_shine(const SceneArrays* scene, const Hits* hits) {
+    int may[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
 #if MATERIALS
-    const uint triangle = scene->meshes[scene->instances[hit.instance].mesh].first_triangle + hit.primitive;
-    global const MaterialRecord* material = scene->materials + scene->triangle_materials[triangle];
+        const uint triangle = scene->meshes[scene->instances[hits->instance[lane]].mesh].first_triangle + hits->primitive[lane];
+        global const MaterialRecord* material = scene->materials + scene->triangle_materials[triangle];
 #else
-    global const MaterialRecord* material = scene->materials;
-    (void)hit;
+        global const MaterialRecord* material = scene->materials;
+        (void)hits;
 #endif
-    const float3 emission = vload3(0, material->emission);
-    return emission.x > 0.0f || emission.y > 0.0f || emission.z > 0.0f ||
-           (material->flags & (BOXWOOD_UNLIT | BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND));
+        may[lane] = material->emission[0] > 0.0f || material->emission[1] > 0.0f || material->emission[2] > 0.0f ||
+                    (material->flags & (BOXWOOD_UNLIT | BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND));
+    }
+    return LOAD_LANES(may) != 0;
 }
 
 #if NEXT_EVENT
-/// A shadow ray and the light that it stands for; false if there is none.
-INLINE bool next_event(const PathWorld* world, const Vertex* vertex, float choice, float2 u, PathRay* ray, float3* light) {
+/// Shadow rays and the light that they stand for. Returns where there is one.
+INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real choice, real u, real v, Rays* rays, Vector* light) {
     LightSample sample;
+#if LIGHTS
+    const real light_choice = SAMPLE_ENVIRONMENT ? 2.0f * choice : choice;
+    sample_light(&world->scene, &world->lights, &vertex->origin,
+                 CHOOSE(light_choice < 1.0f, light_choice, (real)(0.0f)), u, v, LIGHT_SHARE, &sample);
+#endif
 #if SAMPLE_ENVIRONMENT
+    const mask distant = choice >= (LIGHTS ? LIGHT_SHARE : 0.0f);
+    LightSample sky;
+    sample_environment(&world->environment, &vertex->point.surface.normal, u, v, &sky.direction, &sky.value, &sky.pdf);
+    sky.pdf *= ENVIRONMENT_SHARE;
+    scale3(1.0f / sky.pdf, &sky.value);
 #if LIGHTS
-    const bool distant = choice >= LIGHT_SHARE;
-    choice *= 2.0f;
+    choose3(distant, &sky.direction, &sample.segment);
+    choose3(distant, &sky.direction, &sample.direction);
+    choose3(distant, &sky.value, &sample.value);
+    sample.t_max = CHOOSE(distant, (real)(INFINITY), sample.t_max);
+    sample.pdf = CHOOSE(distant, sky.pdf, sample.pdf);
 #else
-    const bool distant = true;
-#endif
-    if (distant) {
-        const float3 radiance = sample_environment(&world->environment, vertex->point.surface.normal, u,
-                                                   &sample.direction, &sample.pdf);
-        sample.pdf *= ENVIRONMENT_SHARE;
-        sample.segment = sample.direction;
-        sample.t_max = INFINITY;
-        sample.value = radiance / sample.pdf;
-    }
-#if LIGHTS
-    else
+    (void)distant;
+    sample = sky;
+    sample.segment = sky.direction;
+    sample.t_max = INFINITY;
 #endif
 #endif
-#if LIGHTS
-        sample_light(&world->scene, &world->lights, vertex->origin, choice, u, LIGHT_SHARE, &sample);
-#endif
-#if STRATEGY == 2
-    if (sample.pdf > 0.0f) return false;
-#endif
-    if (!(dot(sample.direction, vertex->point.surface.normal) > 0.0f)) return false;
-    float3 value;
-    float pdf;
-    evaluate_bsdf(&vertex->bsdf, vertex->wo, into_frame(vertex, sample.direction), &value, &pdf);
-    *light = value * sample.value;
+    Vector wi, value;
+    real pdf;
+    into_frame(vertex, &sample.direction, &wi);
+    evaluate_bsdf(&vertex->bsdf, &vertex->wo, &wi, &value, &pdf);
+    multiply3(&value, &sample.value, light);
 #if STRATEGY == 0
-    if (sample.pdf > 0.0f) *light *= power_heuristic(sample.pdf, pdf);
+    scale3(CHOOSE(sample.pdf > 0.0f, power_heuristic(sample.pdf, pdf), (real)(1.0f)), light);
 #endif
-    ray->origin = vertex->origin;
-    ray->t_min = 0.0f;
-    ray->direction = sample.segment;
-    ray->t_max = sample.t_max;
-    return usable(*light) && (light->x > 0.0f || light->y > 0.0f || light->z > 0.0f);
+    const Rays shadow = {vertex->origin, sample.segment, (real)(0.0f), sample.t_max};
+    *rays = shadow;
+    const mask above = dot3(&sample.direction, &vertex->point.surface.normal) > 0.0f;
+#if STRATEGY == 2
+    return above & NOT(sample.pdf > 0.0f) & usable(light) & bright(light);
+#else
+    return above & usable(light) & bright(light);
+#endif
 }
 #endif
 
-/// The next ray of a path, and what it does to its state; false where the path ends. `width` is that of the beam at the vertex.
-INLINE bool scatter_path(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, uint dimension,
-                         float choice, float width, Path* path, PathRay* ray) {
-    float3 wi, value;
-    float pdf;
-    sample_bsdf(&vertex->bsdf, vertex->wo, choice, sample_square(sampler, dimension + SCATTER_DIMENSION), &wi);
-    evaluate_bsdf(&vertex->bsdf, vertex->wo, wi, &value, &pdf);
-    if (!(pdf > 0.0f)) return false;
-    const float3 turned = out_of_frame(vertex, wi), direction = turned / sqrt(dot(turned, turned));
-    if (!(dot(direction, vertex->point.surface.normal) > 0.0f)) return false;
-
-    float3 throughput = path->throughput * (value / pdf);
-    const float largest = fmax(fmax(throughput.x, throughput.y), throughput.z);
-    if (!(largest > 0.0f) || !usable(throughput)) return false;
-    path->counts += 1;
-    if ((path->counts & 0xffffu) >= ROULETTE_BOUNCE && largest < 1.0f) {
+/// The next rays of paths, and what they do to their states; false where the path ends. `width`: of the beams at the vertices.
+INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, whole dimension,
+                          real choice, real width, Paths* paths, Rays* rays) {
+    Vector wi, value, direction;
+    real pdf, u, v;
+    sample_square(sampler, dimension + SCATTER_DIMENSION, &u, &v);
+    sample_bsdf(&vertex->bsdf, &vertex->wo, choice, u, v, &wi);
+    evaluate_bsdf(&vertex->bsdf, &vertex->wo, &wi, &value, &pdf);
+    out_of_frame(vertex, &wi, &direction);
+    normalise3(&direction);
+    scale3(1.0f / pdf, &value);
+    multiply3(&paths->throughput, &value, &paths->throughput);
+    const real largest = larger(larger(paths->throughput.x, paths->throughput.y), paths->throughput.z);
+    mask goes_on = (pdf > 0.0f) & (dot3(&direction, &vertex->point.surface.normal) > 0.0f) & (largest > 0.0f) &
+                   usable(&paths->throughput);
+    paths->bounces += 1;
+    const mask at_risk = goes_on & (paths->bounces >= ROULETTE_BOUNCE) & (largest < 1.0f);
+    if (ANY(at_risk)) {
         // A multiple of the spacing of samples, so that it is the chance to survive; and not so small that few carry much.
-        const float survival = GREATER(ceil(largest * 0x1p24f) * 0x1p-24f, 0x1p-4f);
-        if (sample_square(sampler, dimension + ROULETTE_DIMENSION).x >= survival) return false;
-        throughput /= survival;
+        const real survival = larger(ceil(largest * 0x1p24f) * 0x1p-24f, (real)(0x1p-4f));
+        sample_square(sampler, dimension + ROULETTE_DIMENSION, &u, &v);
+        goes_on &= NOT(at_risk & (u >= survival));
+        scale3(CHOOSE(at_risk, 1.0f / survival, (real)(1.0f)), &paths->throughput);
     }
-    path->throughput = throughput;
-    path->pdf = pdf;
+    paths->pdf = pdf;
 #if TEXTURES
     // One of so many samples stands for this solid angle; a radian at most.
-    path->width = width;
-    path->spread = fmax(path->spread, fmin(1.0f / sqrt((float)settings->samples * pdf), 1.0f));
+    paths->width = width;
+    paths->spread = larger(paths->spread, smaller(1.0f / sqrt((float)settings->samples * pdf), (real)(1.0f)));
 #else
     (void)width;
     (void)settings;
 #endif
-    ray->origin = vertex->origin;
-    ray->t_min = 0.0f;
-    ray->direction = direction;
-    ray->t_max = INFINITY;
-    return true;
+    const Rays next = {vertex->origin, direction, (real)(0.0f), (real)(INFINITY)};
+    *rays = next;
+    return goes_on;
 }
 
 #endif

@@ -6,7 +6,8 @@
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
 // compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2
 #include "render/path_sum.h"
-#include "render/shading_point.h"
+#include "render/spot.h"
+#include "shared/ray.h"
 
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
@@ -14,14 +15,11 @@
 
 /// The share of light that the surface at a hit lets pass; textures at their finest.
 INLINE float passed_share(const SceneArrays* scene, Hit hit) {
-    Place place;
-    place_of(scene, hit, &place);
-#if UV_SETS
-    place.weight_x = place.weight_y = (float2)(0.0f);
-#endif
-    global const MaterialRecord* material = scene->materials + place.material;
+    Spot spot;
+    spot_of(scene, hit.instance, hit.primitive, hit.u, hit.v, &spot);
+    global const MaterialRecord* material = scene->materials + spot.material;
     if (!(material->flags & (BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND))) return 0.0f;
-    return 1.0f - stopped_share(material, color_at(scene, &place).w);
+    return 1.0f - stopped_share(material, color_at(scene, &spot).w);
 }
 
 /// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of which

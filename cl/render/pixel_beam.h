@@ -5,13 +5,17 @@
 #include "render/shading_point.h"
 #include "shared/camera.h"
 
-/// Where the camera's ray along `direction` meets a surface at distance t, `share` of a pixel wide. The directions are between rays that are not
-/// normalised, so that the image plane lies along the camera's axis.
-INLINE void pixel_beam(global const CameraRecord* camera, float3 direction, float t, float share, Beam* beam) {
-    float width = 2.0f * share;
-    if (camera->perspective) width *= t * dot(direction, vload3(0, camera->forward));
-    beam->x = width * vload3(0, camera->right);
-    beam->y = width * vload3(0, camera->up);
+/// Where the camera's rays along `direction` meet surfaces at distances t, `share` of a pixel wide. The directions are between
+/// rays that are not normalised, so that the image plane lies along the camera's axis.
+INLINE void pixel_beam(global const CameraRecord* camera, const Vector* direction, real t, float share, Beam* beam) {
+    real width = 2.0f * share;
+    Vector forward;
+    spread3(vload3(0, camera->forward), &forward);
+    if (camera->perspective) width *= t * dot3(direction, &forward);
+    spread3(vload3(0, camera->right), &beam->x);
+    spread3(vload3(0, camera->up), &beam->y);
+    scale3(width, &beam->x);
+    scale3(width, &beam->y);
 }
 
 #endif

@@ -43,8 +43,8 @@ INLINE void interpolate(const LocalRay* ray, global const Triangle* surface, con
     crossing->v = fmin(weight.z / sum, 1.0f - crossing->u);
     const float3 within = crossing->u * vload3(0, surface->edge1) + crossing->v * vload3(0, surface->edge2);
     const float3 point = vload3(0, surface->v0) + within;
-    const float3 direction = scaled_by_largest(ray->direction);
     const float largest = fmax(fmax(fabs(ray->direction.x), fabs(ray->direction.y)), fabs(ray->direction.z));
+    const float3 direction = ray->direction / largest;
     crossing->t = dot(point - ray->origin, direction) / dot(direction, direction) / largest * (1.0f + BESIDE);
 }
 

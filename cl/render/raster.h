@@ -5,8 +5,8 @@
 #define BOXWOOD_RENDER_RASTER_H
 #include "render/exact_sign.h"
 #include "render/pixel_offset.h"
-#include "render/surface.h"
 #include "runtime/inline.h"
+#include "runtime/numerics.h"
 #include "shared/raster.h"
 
 // Pixels are looked at when they are this close outside of an edge, relative to the magnitudes that meet in its function, so

@@ -2,33 +2,53 @@
 // Rays that start where other rays hit: cosine-distributed ones and segments to a light.
 //
 // GROUP_SIZE  work-items per work-group.
-// compile:
+// LANES       1
+// compile: LANES=1
 #include "render/random.h"
 #include "render/surface.h"
 #include "render/tangents.h"
 
-#ifndef GROUP_SIZE
-#error "define GROUP_SIZE"
+#if !defined(GROUP_SIZE) || LANES != 1
+#error "define GROUP_SIZE and LANES (1)"
 #endif
 
-inline Ray make_ray(float3 origin, float3 direction, float t_max) {
-    Ray ray;
-    vstore3(origin, 0, ray.origin);
-    ray.t_min = 0.0f;
-    vstore3(direction, 0, ray.direction);
-    ray.t_max = t_max;
-    return ray;
+/// Uniform in (-1, 1), from the top 24 bits: the centres of 2^24 equal parts, exact in float up to the last bit.
+INLINE float random_signed(ulong bits) { return (float)((int)(bits >> 40) - 0x800000) * 0x1p-23f + 0x1p-24f; }
+
+/// A point uniform in the open unit disk, by rejection from the square: no trigonometric function, whose last digits
+/// differ between devices. A square's point is rejected with probability 1 - pi/4, so that 32 draws fail once in 2^71.
+INLINE float2 random_disk(ulong key) {
+    for (uint draw = 0; draw < 32; ++draw) {
+        const ulong bits = random_bits(key, draw);
+        const float2 p = (float2)(random_signed(bits), random_signed(bits << 24));
+        if (p.x * p.x + p.y * p.y < 1.0f) return p;
+    }
+    return (float2)(0.0f, 0.0f);
 }
 
-/// A zero direction hits nothing.
-inline Ray null_ray(void) { return make_ray((float3)(0.0f), (float3)(0.0f), 0.0f); }
-
 /// `p` on the unit disk lifted to the hemisphere around `n`: density cos / pi (Malley).
-inline float3 cosine_direction(float3 n, float2 p) {
-    float3 tangent, bitangent;
+INLINE void cosine_direction(const Vector* n, float2 p, Vector* direction) {
+    Vector tangent, bitangent;
     tangents_of(n, &tangent, &bitangent);
-    const float height = sqrt(1.0f - (p.x * p.x + p.y * p.y));
-    return p.x * tangent + p.y * bitangent + height * n;
+    *direction = *n;
+    scale3(sqrt(1.0f - (p.x * p.x + p.y * p.y)), direction);
+    add_scaled3(p.x, &tangent, direction);
+    add_scaled3(p.y, &bitangent, direction);
+}
+
+/// The surface at hits[i]; false for a miss.
+INLINE bool surface_at(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                       global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint i,
+                       Surface* surface) {
+    Rays ray;
+    Hits hit;
+    load_rays(rays, &i, &ray);
+    load_hits(hits, &i, &hit);
+    if (!hit.some) return false;
+    Triangles triangle;
+    load_triangles(positions, triangles, meshes, instances, &hit, &triangle);
+    find_surface(&triangle, &ray.direction, &hit, surface);
+    return true;
 }
 
 /// out[i] = a ray from the point of hits[i] into a cosine-distributed direction on the side that rays[i] came from, or
@@ -39,15 +59,19 @@ diffuse_rays(global const float* positions, global const uint* triangles, global
              global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
              uint length, ulong seed, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
-    const ulong end = min(begin + length, (ulong)count);
-    for (ulong i = begin; i < end; ++i) {
-        if (hits[i].primitive == BOXWOOD_NONE) {
-            out[i] = null_ray();
-            continue;
+    const uint end = (uint)min(begin + length, (ulong)count);
+    for (uint i = (uint)begin; i < end; ++i) {
+        Surface surface;
+        Rays ray;
+        if (surface_at(positions, triangles, meshes, instances, rays, hits, i, &surface)) {
+            surface_origin(&surface, &ray.origin);
+            cosine_direction(&surface.normal, random_disk(random_key(seed, i)), &ray.direction);
+            ray.t_min = 0.0f;
+            ray.t_max = INFINITY;
+        } else {
+            clear_rays(1, &ray);
         }
-        const Surface surface = surface_at(positions, triangles, meshes, instances, rays[i], hits[i]);
-        const float3 direction = cosine_direction(surface.normal, random_disk(random_key(seed, i)));
-        out[i] = make_ray(surface_origin(surface), direction, INFINITY);
+        store_rays(&ray, out, &i, 1);
     }
 }
 
@@ -58,14 +82,19 @@ shadow_rays(global const float* positions, global const uint* triangles, global 
             global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
             uint length, float light_x, float light_y, float light_z, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
-    const ulong end = min(begin + length, (ulong)count);
-    for (ulong i = begin; i < end; ++i) {
-        if (hits[i].primitive == BOXWOOD_NONE) {
-            out[i] = null_ray();
-            continue;
+    const uint end = (uint)min(begin + length, (ulong)count);
+    for (uint i = (uint)begin; i < end; ++i) {
+        Surface surface;
+        Rays ray;
+        if (surface_at(positions, triangles, meshes, instances, rays, hits, i, &surface)) {
+            const Vector light = {light_x, light_y, light_z};
+            surface_origin(&surface, &ray.origin);
+            subtract3(&light, &ray.origin, &ray.direction);
+            ray.t_min = 0.0f;
+            ray.t_max = BEFORE_END;
+        } else {
+            clear_rays(1, &ray);
         }
-        const float3 origin = surface_origin(surface_at(positions, triangles, meshes, instances, rays[i], hits[i]));
-        // The largest float below 1: t_max is inside the interval.
-        out[i] = make_ray(origin, (float3)(light_x, light_y, light_z) - origin, 0x1.fffffep-1f);
+        store_rays(&ray, out, &i, 1);
     }
 }

@@ -1,229 +1,283 @@
 // SPDX-License-Identifier: MIT
-// The surface that a ray met as shading sees it: the interpolated attributes of its vertices and its material at that point
-// (dissertation 3.7.6). Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
+// The surfaces that rays met as shading sees them, one per lane: interpolated attributes of the vertices and the material at
+// that point (dissertation 3.7.6). Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
 #ifndef BOXWOOD_RENDER_SHADING_POINT_H
 #define BOXWOOD_RENDER_SHADING_POINT_H
-#include "render/scene_arrays.h"
+#include "render/spot.h"
 #include "render/surface.h"
-#if TEXTURES
-#include "render/texture.h"
-#endif
 
-/// A surface and its material at one point. Everything is finite, colours are linear and not negative.
+/// Surfaces and their materials. Everything is finite, colours are linear and not negative.
 typedef struct ShadingPoint {
     Surface surface;
-    float3 normal;     ///< For shading: normalised, on the side that the ray came from, never turned away from it.
-    float3 base_color; ///< [0, 1]
-    float alpha;       ///< Share of the light that the surface stops: 0 or 1 unless it blends.
-    float3 emission;   ///< Radiance towards the ray's origin.
-    float metallic;    ///< [0, 1]
-    float roughness;   ///< [0, 1], perceptual
-    float specular;    ///< [0, 1]
-    float occlusion;   ///< [0, 1], 1 where nothing is occluded
-    uint material;     ///< Index into the materials.
-    uint flags;        ///< MaterialRecord::flags
+    Vector normal;     ///< For shading: normalised, on the side that the ray came from, never turned away from it.
+    Vector base_color; ///< [0, 1]
+    Vector emission;   ///< Radiance towards the ray's origin.
+    real alpha;        ///< Share of the light that the surface stops: 0 or 1 unless it blends.
+    real metallic;     ///< [0, 1]
+    real roughness;    ///< [0, 1], perceptual
+    real specular;     ///< [0, 1]
+    real occlusion;    ///< [0, 1], 1 where nothing is occluded
+    mask unlit;        ///< Shown as it is.
 } ShadingPoint;
 
 /// Cross-section of the beam that a ray stands for, where it meets the surface: two vectors from one side of the beam to the
 /// other, for a pixel those to its neighbours (Igehy 1999). Read for textures only.
 typedef struct Beam {
-    float3 x, y;
+    Vector x, y;
 } Beam;
 
-/// The triangle of a hit within the arrays, and where on it the hit is.
-typedef struct Place {
-    uint3 corner; ///< Vertices.
-    float3 weight; ///< Their barycentric weights.
-    uint material;
-#if UV_SETS
-    // Change of the second and third weight along the two vectors of a beam.
-    float2 weight_x, weight_y;
-#endif
-} Place;
-
-INLINE float3 rotate_rows(global const float* rows, float3 v) {
-    return (float3)(dot(vload3(0, rows), v), dot(vload3(0, rows + 4), v), dot(vload3(0, rows + 8), v));
-}
-
-/// rows^T v: to_object's take normals to world space.
-INLINE float3 rotate_columns(global const float* rows, float3 v) {
-    return v.x * vload3(0, rows) + v.y * vload3(0, rows + 4) + v.z * vload3(0, rows + 8);
-}
-
-INLINE void place_of(const SceneArrays* scene, Hit hit, Place* place) {
-    const uint triangle = scene->meshes[scene->instances[hit.instance].mesh].first_triangle + hit.primitive;
-    place->corner = vload3(triangle, scene->triangles);
-    place->weight = (float3)(1.0f - hit.u - hit.v, hit.u, hit.v);
+INLINE void material_numbers(const SceneArrays* scene, const Triangles* triangles, uint* material) {
+    for (uint lane = 0; lane < LANES; ++lane) {
 #if MATERIALS
-    place->material = scene->triangle_materials[triangle];
+        material[lane] = scene->triangle_materials[triangles->number[lane]];
 #else
-    place->material = 0;
+        material[lane] = 0;
 #endif
+    }
 }
 
 #if UV_SETS
-/// How the weights change along `v`, a vector in world space: by its projection along the ray's direction onto the triangle.
-INLINE float2 weight_change(float3 edge1, float3 edge2, float3 normal, float3 direction, float3 v) {
-    const float facing = dot(normal, direction);
-    const float3 on_plane = v - direction * (dot(normal, v) / facing);
-    const float square = dot(normal, normal);
-    const float2 change = (float2)(dot(cross(on_plane, edge2), normal), dot(cross(edge1, on_plane), normal)) / square;
+/// How the weights of the second and third vertex change along `v`, by its projection along the ray's direction onto the
+/// triangle. Everything in object space, and in a measure in which the edges are near 1.
+INLINE void weight_change(const Vector* edge1, const Vector* edge2, const Vector* normal, const Vector* direction,
+                          const Vector* v, float change[2][LANES]) {
+    Vector on_plane = *v, across;
+    add_scaled3(-dot3(normal, v) / dot3(normal, direction), direction, &on_plane);
+    const real square = dot3(normal, normal);
+    cross3(&on_plane, edge2, &across);
+    const real second = dot3(&across, normal) / square;
+    cross3(edge1, &on_plane, &across);
+    const real third = dot3(&across, normal) / square;
     // A beam along the surface has no end on it, nor has one on a triangle without area.
-    return (isfinite(change.x) && isfinite(change.y)) ? change : (float2)(0.0f);
+    const mask fine = (fabs(second) < INFINITY) & (fabs(third) < INFINITY);
+    STORE_LANES(CHOOSE(fine, second, (real)(0.0f)), change[0]);
+    STORE_LANES(CHOOSE(fine, third, (real)(0.0f)), change[1]);
 }
 
-INLINE void place_beam(const SceneArrays* scene, float3 along, Hit hit, Beam beam, Place* place) {
-    global const float* rows = scene->instances[hit.instance].to_object;
-    const float3 v0 = vload3(place->corner.x, scene->positions);
-    const float3 edge1 = vload3(place->corner.y, scene->positions) - v0;
-    const float3 edge2 = vload3(place->corner.z, scene->positions) - v0;
+INLINE void place_beam(const Triangles* triangles, const Vector* along, const Beam* beam, float change_x[2][LANES],
+                       float change_y[2][LANES]) {
     // Weights do not change with the size of the triangle and of the beam together.
-    const float largest = fmax(fmax(fmax(fabs(edge1.x), fabs(edge1.y)), fmax(fabs(edge1.z), fabs(edge2.x))),
-                               fmax(fabs(edge2.y), fabs(edge2.z)));
-    const float scale = largest > 0.0f ? 1.0f / largest : 0.0f;
-    const float3 normal = cross(edge1 * scale, edge2 * scale);
-    const float3 direction = normalize_any(rotate_rows(rows, along));
-    place->weight_x = weight_change(edge1 * scale, edge2 * scale, normal, direction, rotate_rows(rows, beam.x) * scale);
-    place->weight_y = weight_change(edge1 * scale, edge2 * scale, normal, direction, rotate_rows(rows, beam.y) * scale);
-}
-
-INLINE float2 vertex_uv(const SceneArrays* scene, uint vertex, uint set) {
-    return vload2(0, scene->attributes + (ulong)vertex * VERTEX_FLOATS + UV_AT + 2 * set);
-}
-#endif
-
-INLINE float3 vertex_vector(const SceneArrays* scene, uint vertex, uint at) {
-    return vload3(0, scene->attributes + (ulong)vertex * VERTEX_FLOATS + at);
-}
-
-INLINE float3 interpolate_vector(const SceneArrays* scene, const Place* place, uint at) {
-    return place->weight.x * vertex_vector(scene, place->corner.x, at) +
-           place->weight.y * vertex_vector(scene, place->corner.y, at) +
-           place->weight.z * vertex_vector(scene, place->corner.z, at);
-}
-
-#if TEXTURES
-/// The texture of an input at the place, (1, 1, 1, 1) without one.
-INLINE float4 texture_at(const SceneArrays* scene, const Place* place, global const TextureInput* input) {
-    if (input->texture == BOXWOOD_NONE) return (float4)(1.0f);
-    const float2 uv0 = vertex_uv(scene, place->corner.x, input->uv_set);
-    const float2 edge1 = vertex_uv(scene, place->corner.y, input->uv_set) - uv0;
-    const float2 edge2 = vertex_uv(scene, place->corner.z, input->uv_set) - uv0;
-    const float2 uv = uv0 + place->weight.y * edge1 + place->weight.z * edge2;
-    const float2 along_x = place->weight_x.x * edge1 + place->weight_x.y * edge2;
-    const float2 along_y = place->weight_y.x * edge1 + place->weight_y.y * edge2;
-    global const float* rows = input->rows;
-    const float2 u = (float2)(rows[0], rows[1]), v = (float2)(rows[3], rows[4]);
-    return sample_texture(scene->textures + input->texture, scene->texels,
-                          (float2)(dot(u, uv) + rows[2], dot(v, uv) + rows[5]),
-                          (float2)(dot(u, along_x), dot(v, along_x)), (float2)(dot(u, along_y), dot(v, along_y)));
+    const real largest = larger(largest3(&triangles->edge1), largest3(&triangles->edge2));
+    const real scale = inverse_power(smaller(power_below(largest), (real)(0x1p126f)));
+    Vector edge1 = triangles->edge1, edge2 = triangles->edge2, normal, direction, x, y;
+    scale3(scale, &edge1);
+    scale3(scale, &edge2);
+    cross3(&edge1, &edge2, &normal);
+    rotate_rows(triangles->to_object, along, &direction);
+    normalise_any3(&direction);
+    rotate_rows(triangles->to_object, &beam->x, &x);
+    rotate_rows(triangles->to_object, &beam->y, &y);
+    scale3(scale, &x);
+    scale3(scale, &y);
+    weight_change(&edge1, &edge2, &normal, &direction, &x, change_x);
+    weight_change(&edge1, &edge2, &normal, &direction, &y, change_y);
 }
 #endif
 
-/// Base colour with alpha, before the alpha mode.
-INLINE float4 color_at(const SceneArrays* scene, const Place* place) {
-    global const MaterialRecord* material = scene->materials + place->material;
-    float4 color = vload4(0, material->base_color);
-#if TEXTURES
-    color *= texture_at(scene, place, material->textures + BOXWOOD_BASE_COLOR);
+/// The spots of the hits, for what is not done in lanes.
+INLINE void find_spots(const Triangles* triangles, const uint* material, const Vector* direction, const Hits* hits,
+                       const Beam* beam, Spot* spots) {
+    float u[LANES], v[LANES];
+    STORE_LANES(hits->u, u);
+    STORE_LANES(hits->v, v);
+#if UV_SETS
+    float change_x[2][LANES], change_y[2][LANES];
+    place_beam(triangles, direction, beam, change_x, change_y);
+#else
+    (void)direction;
+    (void)beam;
 #endif
-#if COLORS
-    const ulong at = COLOR_AT;
-    color *= place->weight.x * vload4(0, scene->attributes + (ulong)place->corner.x * VERTEX_FLOATS + at) +
-             place->weight.y * vload4(0, scene->attributes + (ulong)place->corner.y * VERTEX_FLOATS + at) +
-             place->weight.z * vload4(0, scene->attributes + (ulong)place->corner.z * VERTEX_FLOATS + at);
+    for (uint lane = 0; lane < LANES; ++lane) {
+        spots[lane].corner = (uint3)(triangles->corner[0][lane], triangles->corner[1][lane], triangles->corner[2][lane]);
+        spots[lane].weight = (float3)(1.0f - u[lane] - v[lane], u[lane], v[lane]);
+        spots[lane].material = material[lane];
+#if UV_SETS
+        spots[lane].weight_x = (float2)(change_x[0][lane], change_x[1][lane]);
+        spots[lane].weight_y = (float2)(change_y[0][lane], change_y[1][lane]);
 #endif
-    return clamp(color, 0.0f, 1.0f);
-}
-
-/// What the alpha mode makes of an alpha.
-INLINE float stopped_share(global const MaterialRecord* material, float alpha) {
-    if (material->flags & BOXWOOD_ALPHA_BLEND) return alpha;
-    if (material->flags & BOXWOOD_ALPHA_MASK) return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
-    return 1.0f;
-}
-
-#if NORMALS
-/// Normal of the triangle in object space, for vertices without any.
-INLINE float3 object_normal(const SceneArrays* scene, const Place* place) {
-    const float3 v0 = vload3(place->corner.x, scene->positions);
-    return normalize_any(cross(scaled_by_largest(vload3(place->corner.y, scene->positions) - v0),
-                               scaled_by_largest(vload3(place->corner.z, scene->positions) - v0)));
-}
-#endif
-
-/// The normal for shading, from vertices and normal texture, in world space and normalised, or that of the triangle where those
-/// are zero. `view` goes along the ray.
-INLINE float3 shading_normal(const SceneArrays* scene, const Place* place, Hit hit, Surface surface, float3 view) {
-    float3 normal = surface.normal;
-#if NORMALS
-    global const InstanceRecord* instance = scene->instances + hit.instance;
-    const float3 interpolated = normalize_any(interpolate_vector(scene, place, NORMAL_AT));
-    const float3 object = dot(interpolated, interpolated) > 0.0f ? interpolated : object_normal(scene, place);
-    float3 bent = rotate_columns(instance->to_object, object);
-    // By the surface itself: a normal texture may bend the normal past the triangle's plane.
-    const bool turned = dot(bent, surface.normal) < 0.0f;
-#if TANGENTS
-    global const MaterialRecord* material = scene->materials + place->material;
-    const float3 tangent = normalize_any(interpolate_vector(scene, place, TANGENT_AT));
-    if (material->textures[BOXWOOD_NORMAL].texture != BOXWOOD_NONE && dot(tangent, tangent) > 0.0f) {
-        const float4 texel = texture_at(scene, place, material->textures + BOXWOOD_NORMAL);
-        const float2 slope = material->normal_scale * (2.0f * texel.xy - 1.0f);
-        const float handedness =
-            scene->attributes[(ulong)place->corner.x * VERTEX_FLOATS + TANGENT_AT + 3] < 0.0f ? -1.0f : 1.0f;
-        // The bitangent is a direction on the surface, so that a mirrored instance mirrors its bumps.
-        bent = fmax(2.0f * texel.z - 1.0f, 0.0f) * normalize_any(bent) +
-               slope.x * normalize_any(rotate_rows(instance->to_world, tangent)) +
-               slope.y * normalize_any(rotate_rows(instance->to_world, handedness * cross(object, tangent)));
     }
+}
+
+#if NORMALS
+/// Vertex attributes from float `at` on, interpolated and normalised; zero stays zero.
+INLINE void interpolate_direction(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, uint at,
+                                  Vector* direction) {
+    Vector second, third;
+    load_vectors(scene->attributes + at, VERTEX_FLOATS, triangles->corner[0], direction);
+    load_vectors(scene->attributes + at, VERTEX_FLOATS, triangles->corner[1], &second);
+    load_vectors(scene->attributes + at, VERTEX_FLOATS, triangles->corner[2], &third);
+    scale3(1.0f - hits->u - hits->v, direction);
+    add_scaled3(hits->u, &second, direction);
+    add_scaled3(hits->v, &third, direction);
+    normalise_any3(direction);
+}
 #endif
-    bent = normalize_any(bent);
-    if (dot(bent, bent) > 0.0f) normal = turned ? -bent : bent;
+
+#if TANGENTS
+/// Bends the normal, `object` before it went to world space, by the normal textures.
+INLINE void bend_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, const Spot* spots,
+                        const Vector* object, Vector* normal) {
+    float slope_x[LANES], slope_y[LANES], height[LANES], handedness[LANES];
+    int has[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        global const MaterialRecord* material = scene->materials + spots[lane].material;
+        global const TextureInput* input = material->textures + BOXWOOD_NORMAL;
+        const float4 texel = texture_at(scene, spots + lane, input);
+        slope_x[lane] = material->normal_scale * (2.0f * texel.x - 1.0f);
+        slope_y[lane] = material->normal_scale * (2.0f * texel.y - 1.0f);
+        height[lane] = fmax(2.0f * texel.z - 1.0f, 0.0f);
+        const float sign = scene->attributes[(ulong)spots[lane].corner.x * VERTEX_FLOATS + TANGENT_AT + 3];
+        handedness[lane] = sign < 0.0f ? -1.0f : 1.0f;
+        has[lane] = input->texture != BOXWOOD_NONE;
+    }
+    Vector tangent, bitangent, along, across;
+    interpolate_direction(scene, triangles, hits, TANGENT_AT, &tangent);
+    cross3(object, &tangent, &bitangent);
+    // The bitangent is a direction on the surface, so that a mirrored instance mirrors its bumps.
+    scale3(LOAD_LANES(handedness), &bitangent);
+    rotate_rows(triangles->to_world, &tangent, &along);
+    rotate_rows(triangles->to_world, &bitangent, &across);
+    normalise_any3(&along);
+    normalise_any3(&across);
+    Vector bent = *normal;
+    normalise_any3(&bent);
+    scale3(LOAD_LANES(height), &bent);
+    add_scaled3(LOAD_LANES(slope_x), &along, &bent);
+    add_scaled3(LOAD_LANES(slope_y), &across, &bent);
+    choose3((LOAD_LANES(has) != 0) & (largest3(&tangent) > 0.0f), &bent, normal);
+}
+#endif
+
+/// The normals for shading, from vertices and normal textures, in world space and normalised, or those of the triangles where
+/// those are zero. `view` goes along the rays.
+INLINE void shading_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, const Spot* spots,
+                           const Surface* surface, const Vector* view, Vector* normal) {
+    *normal = surface->normal;
+#if NORMALS
+    Vector object, flat, bent;
+    interpolate_direction(scene, triangles, hits, NORMAL_AT, &object);
+    // Vertices without normals leave that of the triangle.
+    Vector edge1 = triangles->edge1, edge2 = triangles->edge2;
+    scale_to_one3(&edge1);
+    scale_to_one3(&edge2);
+    exact_cross3(&edge1, &edge2, &flat);
+    normalise_any3(&flat);
+    choose3(NOT(largest3(&object) > 0.0f), &flat, &object);
+    rotate_columns(triangles->to_object, &object, &bent);
+    // By the surface itself: a normal texture may bend the normal past the triangle's plane.
+    const real side = CHOOSE(dot3(&bent, &surface->normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
+#if TANGENTS
+    bend_normal(scene, triangles, hits, spots, &object, &bent);
+#endif
+    normalise_any3(&bent);
+    scale3(side, &bent);
+    choose3(largest3(&bent) > 0.0f, &bent, normal);
 #else
     (void)scene;
-    (void)place;
-    (void)hit;
+    (void)triangles;
+    (void)hits;
+#endif
+#if !TANGENTS
+    (void)spots;
 #endif
     // Towards a silhouette interpolated normals turn away from the eye: they are bent back until they graze.
-    const float grazing = 0x1p-7f, facing = -dot(normal, view);
-    return facing < grazing ? normalize_any(normal - view * (grazing - facing)) : normal;
+    const real grazing = 0x1p-7f, facing = -dot3(normal, view);
+    Vector back = *normal;
+    add_scaled3(facing - grazing, view, &back);
+    normalise_any3(&back);
+    choose3(facing < grazing, &back, normal);
 }
 
-/// The surface and its material where a ray along `direction`, which is normalised, met it; `hit` is not a miss.
-INLINE void find_shading_point(const SceneArrays* scene, float3 direction, Hit hit, Beam beam, ShadingPoint* point) {
-    Place place;
-    place_of(scene, hit, &place);
-#if UV_SETS
-    place_beam(scene, direction, hit, beam, &place);
+/// What materials have without textures. Returns their flags.
+INLINE whole load_material(const SceneArrays* scene, const uint* material, ShadingPoint* point) {
+    const uint stride = sizeof(MaterialRecord) / sizeof(float);
+    real row[8];
+    load_rows8(scene->materials->base_color, stride, material, row);
+    for (uint k = 0; k < 4; ++k) row[k] = clamp(row[k], 0.0f, 1.0f);
+    const Vector color = {row[0], row[1], row[2]}, emission = {row[4], row[5], row[6]};
+    point->base_color = color;
+    point->alpha = row[3];
+    point->emission = emission;
+    point->metallic = row[7];
+    load_rows8(&scene->materials->roughness, stride, material, row);
+    point->roughness = row[0];
+    point->specular = row[4];
+    point->occlusion = 1.0f;
+    return AS_WHOLE(row[5]);
+}
+
+#if TEXTURES
+/// A texture of each lane's material; channel by channel.
+INLINE void textures_at(const SceneArrays* scene, const Spot* spots, uint which, float texel[3][LANES]) {
+    for (uint lane = 0; lane < LANES; ++lane) {
+        const float4 t = texture_at(scene, spots + lane, scene->materials[spots[lane].material].textures + which);
+        texel[0][lane] = t.x;
+        texel[1][lane] = t.y;
+        texel[2][lane] = t.z;
+    }
+}
+
+INLINE void apply_textures(const SceneArrays* scene, const Spot* spots, ShadingPoint* point) {
+    float texel[3][LANES], strength[LANES];
+    textures_at(scene, spots, BOXWOOD_METALLIC_ROUGHNESS, texel);
+    point->roughness *= LOAD_LANES(texel[1]);
+    point->metallic *= LOAD_LANES(texel[2]);
+    textures_at(scene, spots, BOXWOOD_EMISSION, texel);
+    const Vector emission = {LOAD_LANES(texel[0]), LOAD_LANES(texel[1]), LOAD_LANES(texel[2])};
+    multiply3(&emission, &point->emission, &point->emission);
+    textures_at(scene, spots, BOXWOOD_OCCLUSION, texel);
+    for (uint lane = 0; lane < LANES; ++lane) strength[lane] = scene->materials[spots[lane].material].occlusion_strength;
+    point->occlusion = 1.0f + LOAD_LANES(strength) * (LOAD_LANES(texel[0]) - 1.0f);
+}
+#endif
+
+/// Base colour with alpha as textures, vertices and the alpha mode make them.
+INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* material, whole flags, ShadingPoint* point) {
+    float alpha[LANES];
+    STORE_LANES(point->alpha, alpha);
+#if TEXTURES || COLORS
+    float color[3][LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        const float4 c = color_at(scene, spots + lane);
+        color[0][lane] = c.x;
+        color[1][lane] = c.y;
+        color[2][lane] = c.z;
+        alpha[lane] = c.w;
+    }
+    const Vector found = {LOAD_LANES(color[0]), LOAD_LANES(color[1]), LOAD_LANES(color[2])};
+    point->base_color = found;
+#else
+    (void)spots;
+#endif
+    point->alpha = 1.0f;
+    if (!ANY((flags & (BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND)) != 0)) return;
+    for (uint lane = 0; lane < LANES; ++lane) alpha[lane] = stopped_share(scene->materials + material[lane], alpha[lane]);
+    point->alpha = LOAD_LANES(alpha);
+}
+
+/// The surfaces and their materials where rays along `direction`, which is normalised, met them.
+INLINE void find_shading_point(const SceneArrays* scene, const Vector* direction, const Hits* hits, const Beam* beam,
+                               ShadingPoint* point) {
+    Triangles triangles;
+    load_triangles(scene->positions, scene->triangles, scene->meshes, scene->instances, hits, &triangles);
+    uint material[LANES];
+    material_numbers(scene, &triangles, material);
+    Spot spots[LANES];
+#if TEXTURES || COLORS
+    find_spots(&triangles, material, direction, hits, beam, spots);
 #else
     (void)beam;
 #endif
-    global const MaterialRecord* material = scene->materials + place.material;
-    find_surface(scene->positions, scene->triangles, scene->meshes, scene->instances, direction, hit, &point->surface);
-    point->normal = shading_normal(scene, &place, hit, point->surface, direction);
-    point->material = place.material;
-    point->flags = material->flags;
-    const float4 color = color_at(scene, &place);
-    point->base_color = color.xyz;
-    point->alpha = stopped_share(material, color.w);
-    point->metallic = material->metallic;
-    point->roughness = material->roughness;
-    point->specular = material->specular;
-    point->occlusion = 1.0f;
-    point->emission = vload3(0, material->emission);
+    find_surface(&triangles, direction, hits, &point->surface);
+    shading_normal(scene, &triangles, hits, spots, &point->surface, direction, &point->normal);
+    const whole flags = load_material(scene, material, point);
+    find_color(scene, spots, material, flags, point);
 #if TEXTURES
-    const float4 metal = texture_at(scene, &place, material->textures + BOXWOOD_METALLIC_ROUGHNESS);
-    point->metallic *= metal.z;
-    point->roughness *= metal.y;
-    point->emission *= texture_at(scene, &place, material->textures + BOXWOOD_EMISSION).xyz;
-    const float occlusion = texture_at(scene, &place, material->textures + BOXWOOD_OCCLUSION).x;
-    point->occlusion = 1.0f + material->occlusion_strength * (occlusion - 1.0f);
+    apply_textures(scene, spots, point);
 #endif
-    if (!point->surface.front && !(material->flags & BOXWOOD_DOUBLE_SIDED)) point->emission = (float3)(0.0f);
-}
-
-INLINE void shading_point(const SceneArrays* scene, Ray ray, Hit hit, Beam beam, ShadingPoint* point) {
-    find_shading_point(scene, normalize_any(vload3(0, ray.direction)), hit, beam, point);
+    point->unlit = (flags & BOXWOOD_UNLIT) != 0;
+    const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    choose3(NOT(point->surface.front) & ((flags & BOXWOOD_DOUBLE_SIDED) == 0), &dark, &point->emission);
 }
 
 #endif

@@ -1,51 +1,162 @@
 // SPDX-License-Identifier: MIT
-// The surface at a hit: point, normal, and how far a new ray must start from it.
+// The surfaces at hits, one per lane: point, normal, and how far a new ray must start from it.
 #ifndef BOXWOOD_RENDER_SURFACE_H
 #define BOXWOOD_RENDER_SURFACE_H
-#include "runtime/inline.h"
-#include "runtime/numerics.h"
+#include "runtime/vector.h"
 #include "shared/instance.h"
 #include "shared/ray.h"
 
-/// A hit point in world space.
+// The largest float below 1: the end of a segment is left out.
+#define BEFORE_END 0x1.fffffep-1f
+
+/// Rays, one per lane.
+typedef struct Rays {
+    Vector origin, direction;
+    real t_min, t_max;
+} Rays;
+
+/// What rays met, one per lane. Lanes that met nothing name the triangle of one that did, if there is any.
+typedef struct Hits {
+    real t, u, v;
+    mask some; ///< Where there is a hit.
+    uint primitive[LANES], instance[LANES];
+} Hits;
+
+/// Triangles that were met, one per lane.
+typedef struct Triangles {
+    uint number[LANES];               ///< In the arrays of all meshes.
+    uint corner[3][LANES];            ///< Vertices.
+    Vector first, edge1, edge2;       ///< Object space.
+    Vector largest;                   ///< The largest magnitudes of the vertices.
+    real to_object[12], to_world[12]; ///< Of the instance.
+} Triangles;
+
+/// Hit points in world space, one per lane.
 typedef struct Surface {
-    float3 point;
-    float3 normal; ///< Geometric, normalised, on the side that the ray came from. Zero for a triangle without area.
-    bool front; ///< The ray met the side from which the vertices go around counter-clockwise, in object space.
-    float clearance; ///< Distance along the normal that carries an origin off the triangle (see surface_clearance).
+    Vector point;
+    Vector normal; ///< Geometric, normalised, on the side that the ray came from. Zero for a triangle without area.
+    mask front; ///< The ray met the side from which the vertices go around counter-clockwise, in object space.
+    real clearance; ///< Distance along the normal that carries an origin off the triangle (see surface_clearance).
 } Surface;
 
-INLINE float3 scaled_by_largest(float3 v) {
-    const float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
-    return largest > 0.0f ? v / largest : v;
+/// The `used` elements from `first` on, one per lane; the lanes behind repeat the last one.
+INLINE void lane_indices(uint first, uint used, uint* index) {
+    for (uint lane = 0; lane < LANES; ++lane) index[lane] = first + min(lane, used - 1);
 }
 
-/// v normalised for any magnitude: squares are taken of numbers with a largest component of 1. Zero stays zero.
-INLINE float3 normalize_any(float3 v) {
-    const float3 scaled = scaled_by_largest(v);
-    const float square = dot(scaled, scaled);
-    return square > 0.0f ? scaled / sqrt(square) : scaled;
+INLINE void load_rays(global const Ray* from, const uint* index, Rays* rays) {
+    real row[8];
+    load_rows8(from->origin, 8, index, row);
+    const Rays r = {{row[0], row[1], row[2]}, {row[4], row[5], row[6]}, row[3], row[7]};
+    *rays = r;
 }
 
-/// rows (3 x 4, affine) applied to a point; with absolute values, to a bound of the magnitudes that meet in it.
-INLINE float3 transform_point(global const float* rows, float3 p) {
-    return (float3)(dot(vload3(0, rows), p) + rows[3], dot(vload3(0, rows + 4), p) + rows[7],
-                    dot(vload3(0, rows + 8), p) + rows[11]);
+/// Lane after lane, for the first `count` lanes.
+INLINE void store_rays(const Rays* rays, global Ray* to, const uint* index, uint count) {
+    real row[8] = {rays->origin.x,    rays->origin.y,    rays->origin.z,    rays->t_min,
+                   rays->direction.x, rays->direction.y, rays->direction.z, rays->t_max};
+    store_rows8(row, to->origin, 8, index, count);
 }
 
-INLINE float3 bound_vector(global const float* rows, float3 magnitude) {
-    return (float3)(dot(fabs(vload3(0, rows)), magnitude), dot(fabs(vload3(0, rows + 4)), magnitude),
-                    dot(fabs(vload3(0, rows + 8)), magnitude));
+/// Rays that meet nothing, where `condition` holds.
+INLINE void clear_rays(mask condition, Rays* rays) {
+    const real zero = 0.0f;
+    const Vector none = {zero, zero, zero};
+    choose3(condition, &none, &rays->origin);
+    choose3(condition, &none, &rays->direction);
+    rays->t_min = CHOOSE(condition, zero, rays->t_min);
+    rays->t_max = CHOOSE(condition, zero, rays->t_max);
 }
 
-INLINE float3 bound_point(global const float* rows, float3 magnitude) {
-    return bound_vector(rows, magnitude) + fabs((float3)(rows[3], rows[7], rows[11]));
+INLINE void load_hits(global const Hit* from, const uint* index, Hits* hits) {
+    real row[8];
+    load_rows4(&from->t, 5, index, row);
+    hits->t = row[0];
+    hits->u = row[1];
+    hits->v = row[2];
+    hits->some = AS_INT(row[3]) != (int)BOXWOOD_NONE;
+    global const Hit* stand_in = from + index[0];
+    for (uint lane = 1; lane < LANES; ++lane)
+        if (stand_in->primitive == BOXWOOD_NONE) stand_in = from + index[lane];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        global const Hit* hit = from + index[lane];
+        hit = hit->primitive == BOXWOOD_NONE ? stand_in : hit;
+        hits->primitive[lane] = hit->primitive;
+        hits->instance[lane] = hit->instance;
+    }
+}
+
+/// The triangles of `hits`, of which at least one is one. The arrays are those of a Geometry.
+INLINE void load_triangles(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                           global const InstanceRecord* instances, const Hits* hits, Triangles* result) {
+    for (uint lane = 0; lane < LANES; ++lane) {
+        result->number[lane] = meshes[instances[hits->instance[lane]].mesh].first_triangle + hits->primitive[lane];
+        const uint3 corner = vload3(result->number[lane], triangles);
+        result->corner[0][lane] = corner.x;
+        result->corner[1][lane] = corner.y;
+        result->corner[2][lane] = corner.z;
+    }
+    Vector second, third;
+    load_vectors(positions, 3, result->corner[0], &result->first);
+    load_vectors(positions, 3, result->corner[1], &second);
+    load_vectors(positions, 3, result->corner[2], &third);
+    subtract3(&second, &result->first, &result->edge1);
+    subtract3(&third, &result->first, &result->edge2);
+    result->largest.x = larger(larger(fabs(result->first.x), fabs(second.x)), fabs(third.x));
+    result->largest.y = larger(larger(fabs(result->first.y), fabs(second.y)), fabs(third.y));
+    result->largest.z = larger(larger(fabs(result->first.z), fabs(second.z)), fabs(third.z));
+
+    real rows[24];
+    for (uint part = 0; part < 3; ++part)
+        load_rows8(instances->to_object + 8 * part, sizeof(InstanceRecord) / sizeof(float), hits->instance, rows + 8 * part);
+    for (uint k = 0; k < 12; ++k) {
+        result->to_object[k] = rows[k];
+        result->to_world[k] = rows[12 + k];
+    }
+}
+
+/// rows (3 x 4, affine) applied to a vector.
+INLINE void rotate_rows(const real* rows, const Vector* v, Vector* result) {
+    const Vector r = {fma(rows[0], v->x, fma(rows[1], v->y, rows[2] * v->z)),
+                      fma(rows[4], v->x, fma(rows[5], v->y, rows[6] * v->z)),
+                      fma(rows[8], v->x, fma(rows[9], v->y, rows[10] * v->z))};
+    *result = r;
+}
+
+/// rows^T v: to_object's take normals to world space.
+INLINE void rotate_columns(const real* rows, const Vector* v, Vector* result) {
+    const Vector r = {fma(rows[0], v->x, fma(rows[4], v->y, rows[8] * v->z)),
+                      fma(rows[1], v->x, fma(rows[5], v->y, rows[9] * v->z)),
+                      fma(rows[2], v->x, fma(rows[6], v->y, rows[10] * v->z))};
+    *result = r;
+}
+
+INLINE void transform_point(const real* rows, const Vector* p, Vector* result) {
+    rotate_rows(rows, p, result);
+    result->x += rows[3];
+    result->y += rows[7];
+    result->z += rows[11];
+}
+
+/// The same of magnitudes: bounds of those that meet in it.
+INLINE void bound_vector(const real* rows, const Vector* magnitude, Vector* result) {
+    const Vector r = {fma(fabs(rows[0]), magnitude->x, fma(fabs(rows[1]), magnitude->y, fabs(rows[2]) * magnitude->z)),
+                      fma(fabs(rows[4]), magnitude->x, fma(fabs(rows[5]), magnitude->y, fabs(rows[6]) * magnitude->z)),
+                      fma(fabs(rows[8]), magnitude->x, fma(fabs(rows[9]), magnitude->y, fabs(rows[10]) * magnitude->z))};
+    *result = r;
+}
+
+INLINE void bound_point(const real* rows, const Vector* magnitude, Vector* result) {
+    bound_vector(rows, magnitude, result);
+    result->x += fabs(rows[3]);
+    result->y += fabs(rows[7]);
+    result->z += fabs(rows[11]);
 }
 
 /// How far along `normal` the point of a new ray is moved so that a traversal, which sees the triangle through its own
-/// roundings, finds it on the right side. With u = 2^-24, `largest` the largest magnitudes of the triangle's vertices
-/// in object space, W = |to_world| largest the magnitudes that meet in a world point, and B = |to_world| (|to_object| W)
-/// those that meet on the way back to object space, seen from the world, the errors off the plane are at most
+/// roundings, finds it on the right side. With u = 2^-24, W = |to_world| largest the magnitudes that meet in a world point, and
+/// B = |to_world| (|to_object| W) those that meet on the way back to object space, seen from the world, the errors off the plane
+/// are at most
 ///     5 u W    the point from two barycentric products and two sums (edges are at most twice `largest`),
 ///     4 u W    its transform,  1 u W  the sum with the offset,
 ///     5 u B    transform of the origin by the rounded inverse,
@@ -54,45 +165,40 @@ INLINE float3 bound_point(global const float* rows, float3 magnitude) {
 ///     8 u W    vertices and edges rounded after flattening,
 /// together 32 u W + 5 u B. Slivers pass this: their triple product loses digits in proportion to how thin they are.
 /// Scales with the scene.
-INLINE float surface_clearance(global const InstanceRecord* instance, float3 largest, float3 normal) {
-    const float3 world = bound_point(instance->to_world, largest);
-    const float3 back = bound_vector(instance->to_world, bound_point(instance->to_object, world));
-    return 0x1p-24f * dot(fabs(normal), 32.0f * world + 5.0f * back);
+INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) {
+    Vector world, there, back;
+    bound_point(triangles->to_world, &triangles->largest, &world);
+    bound_point(triangles->to_object, &world, &there);
+    bound_vector(triangles->to_world, &there, &back);
+    scale3((real)(5.0f), &back);
+    add_scaled3((real)(32.0f), &world, &back);
+    return 0x1p-24f * reach3(normal, &back);
 }
 
-/// The surface that a ray along `direction` met at `hit` (not a miss). `positions`, `triangles`, `meshes` and `instances` are
-/// those of a Geometry and `hit` names a triangle and an instance of it.
-INLINE void find_surface(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-                         global const InstanceRecord* instances, float3 direction, Hit hit, Surface* surface) {
-    global const InstanceRecord* instance = instances + hit.instance;
-    const uint3 corner = vload3(meshes[instance->mesh].first_triangle + hit.primitive, triangles);
-    const float3 v0 = vload3(corner.x, positions);
-    const float3 v1 = vload3(corner.y, positions);
-    const float3 v2 = vload3(corner.z, positions);
-    const float3 edge1 = v1 - v0;
-    const float3 edge2 = v2 - v0;
-
+/// The surfaces that rays along `direction` met at `hits`.
+INLINE void find_surface(const Triangles* triangles, const Vector* direction, const Hits* hits, Surface* surface) {
+    Vector edge1 = triangles->edge1, edge2 = triangles->edge2, object;
+    scale_to_one3(&edge1);
+    scale_to_one3(&edge2);
+    exact_cross3(&edge1, &edge2, &object);
     // A normal goes to world space by the inverse transpose.
-    const float3 n = cross(scaled_by_largest(edge1), scaled_by_largest(edge2));
-    global const float* rows = instance->to_object;
-    const float3 normal =
-        normalize_any(n.x * vload3(0, rows) + n.y * vload3(0, rows + 4) + n.z * vload3(0, rows + 8));
-    const float side = dot(normal, direction);
+    rotate_columns(triangles->to_object, &object, &surface->normal);
+    normalise_any3(&surface->normal);
+    surface->clearance = surface_clearance(triangles, &surface->normal);
+    const mask back = dot3(&surface->normal, direction) > 0.0f;
+    surface->front = NOT(back);
+    scale3(CHOOSE(back, (real)(-1.0f), (real)(1.0f)), &surface->normal);
 
-    surface->point = transform_point(instance->to_world, v0 + (hit.u * edge1 + hit.v * edge2));
-    surface->normal = side > 0.0f ? -normal : normal;
-    surface->front = !(side > 0.0f);
-    surface->clearance = surface_clearance(instance, fmax(fmax(fabs(v0), fabs(v1)), fabs(v2)), normal);
+    Vector point = triangles->first;
+    add_scaled3(hits->u, &triangles->edge1, &point);
+    add_scaled3(hits->v, &triangles->edge2, &point);
+    transform_point(triangles->to_world, &point, &surface->point);
 }
 
-inline Surface surface_at(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-                          global const InstanceRecord* instances, Ray ray, Hit hit) {
-    Surface surface;
-    find_surface(positions, triangles, meshes, instances, vload3(0, ray.direction), hit, &surface);
-    return surface;
+/// The origins of new rays on the normals' side of the surfaces.
+INLINE void surface_origin(const Surface* surface, Vector* origin) {
+    *origin = surface->point;
+    add_scaled3(surface->clearance, &surface->normal, origin);
 }
-
-/// The origin of a new ray on the normal's side of the surface.
-INLINE float3 surface_origin(Surface surface) { return surface.point + surface.clearance * surface.normal; }
 
 #endif

@@ -16,6 +16,7 @@ typedef uint8 whole;
 typedef ulong8 wide;
 #define AS_INT(x) as_int8(x)
 #define AS_REAL(x) as_float8(x)
+#define AS_WHOLE(x) as_uint8(x)
 #define TO_REAL(x) convert_float8(x)
 #define TO_WHOLE(x) convert_uint8(x)
 #define TO_WIDE(x) convert_ulong8(x)
@@ -29,6 +30,7 @@ typedef uint whole;
 typedef ulong wide;
 #define AS_INT(x) as_int(x)
 #define AS_REAL(x) as_float(x)
+#define AS_WHOLE(x) as_uint(x)
 #define TO_REAL(x) ((float)(x))
 #define TO_WHOLE(x) ((uint)(x))
 #define TO_WIDE(x) ((ulong)(x))
@@ -107,11 +109,19 @@ INLINE void load_rows3(global const float* base, uint stride, const uint* index,
     transpose(v);
 }
 
-/// The reverse, for the first `count` lanes; v is used up.
+/// The reverse, lane after lane, for the first `count` lanes; v is used up.
 INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
     transpose(v);
 #define STORE(lane) \
     if (lane < count) vstore8(v[lane], 0, ROW(lane))
+    EACH_LANE(STORE);
+#undef STORE
+}
+INLINE void store_rows3(real* v, global float* base, uint stride, const uint* index, uint count) {
+    v[3] = v[4] = v[5] = v[6] = v[7] = 0.0f;
+    transpose(v);
+#define STORE(lane) \
+    if (lane < count) vstore3(v[lane].s012, 0, ROW(lane))
     EACH_LANE(STORE);
 #undef STORE
 }
@@ -142,6 +152,9 @@ INLINE void load_rows3(global const float* base, uint stride, const uint* index,
 }
 INLINE void store_rows8(real* v, global float* base, uint stride, const uint* index, uint count) {
     vstore8(vload8(0, v), 0, base + stride * (size_t)index[0]);
+}
+INLINE void store_rows3(real* v, global float* base, uint stride, const uint* index, uint count) {
+    vstore3(vload3(0, v), 0, base + stride * (size_t)index[0]);
 }
 INLINE void store_rows4(real* v, global float* base, uint stride, const uint* index, uint count) {
     vstore4(vload4(0, v), 0, base + stride * (size_t)index[0]);

@@ -46,6 +46,19 @@ INLINE void multiply3(const Vector* p, const Vector* q, Vector* result) {
     *result = r;
 }
 
+/// p q - r s to two roundoffs, and 0 where it is (Kahan; Jeannerod et al. 2013): products lose nothing to each other.
+INLINE real difference_of_products(real p, real q, real r, real s) {
+    const real product = r * s;
+    return fma(p, q, -product) - fma(r, s, -product);
+}
+
+/// The cross product, every component to two roundoffs of itself: zero for vectors along one line, and for no others.
+INLINE void exact_cross3(const Vector* p, const Vector* q, Vector* result) {
+    const Vector r = {difference_of_products(p->y, q->z, p->z, q->y), difference_of_products(p->z, q->x, p->x, q->z),
+                      difference_of_products(p->x, q->y, p->y, q->x)};
+    *result = r;
+}
+
 INLINE void scale3(real factor, Vector* v) {
     v->x *= factor;
     v->y *= factor;
@@ -92,6 +105,15 @@ INLINE void spread3(float3 value, Vector* v) {
     v->z = value.z;
 }
 
+/// The reverse, lane after lane, for the first `count` lanes.
+INLINE void store_vectors(const Vector* v, global float* base, uint stride, const uint* index, uint count) {
+    real row[8];
+    row[0] = v->x;
+    row[1] = v->y;
+    row[2] = v->z;
+    store_rows3(row, base, stride, index, count);
+}
+
 INLINE void choose6(mask condition, const Symmetric* yes, Symmetric* m) {
     m->xx = CHOOSE(condition, yes->xx, m->xx);
     m->yy = CHOOSE(condition, yes->yy, m->yy);
@@ -127,5 +149,14 @@ INLINE real power_below(real value) {
 
 /// 1 / power, exact, for powers of two from 2^-126 to 2^126.
 INLINE real inverse_power(real power) { return AS_REAL(0x7f000000 - AS_INT(power)); }
+
+/// v times a power of two that brings its largest component near 1, so that squares and products stay in range. Zero stays.
+INLINE void scale_to_one3(Vector* v) { scale3(inverse_power(smaller(power_below(largest3(v)), (real)(0x1p126f))), v); }
+
+/// Length 1 for any magnitude, unless v is zero, which stays.
+INLINE void normalise_any3(Vector* v) {
+    scale_to_one3(v);
+    normalise3(v);
+}
 
 #endif

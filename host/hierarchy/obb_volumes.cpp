@@ -35,7 +35,7 @@ struct Fit {
 
 /// `extra` are the kernel's own macros, and those that it has otherwise than the rest.
 KernelRef kernel_of(const Fit& fit, const char* file, const char* name, Defines extra = {}) {
-    extra.merge(Defines{{"LANES", fit.device.info().cpu ? "8" : "1"},
+    extra.merge(Defines{{"LANES", std::to_string(fit.device.tuning().lanes)},
                         {"POINTS_PER_PRIMITIVE", std::to_string(fit.points_per_primitive)},
                         {"MEASURE_AREA", fit.options.measure == Measure::area ? "1" : "0"},
                         {"FALLBACK", fit.options.fallback ? "1" : "0"}});

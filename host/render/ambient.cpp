@@ -26,8 +26,9 @@ constexpr std::array<double, 9> squared_norms = {1.0 / (4 * pi),  3.0 / (4 * pi)
 /// What a Lambert surface makes of each degree, over pi.
 constexpr std::array<double, 9> lambert = {1.0, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25, 0.25, 0.25, 0.25, 0.25};
 
-Defines ambient_defines(const World& world, const LightOptions& options, bool lights, EnvironmentKind environment) {
-    Defines defines = scene_defines(world.appearance.requirements, options.filter);
+Defines ambient_defines(const Device& device, const World& world, const LightOptions& options, bool lights,
+                        EnvironmentKind environment) {
+    Defines defines = scene_defines(device, world.appearance.requirements, options.filter);
     defines["LIGHTS"] = flag(lights);
     defines["ENVIRONMENT"] = std::to_string(static_cast<int>(environment));
     defines["SAMPLER"] = std::to_string(2 - static_cast<int>(options.sampler));
@@ -97,7 +98,7 @@ void trace_ambient(Device& device, const World& world, const AmbientLight& aroun
     const Paths paths(device, count);
     const Appearance& appearance = world.appearance;
     const EnvironmentMap& map = world.environment;
-    const Defines defines = ambient_defines(world, options, around.punctual > 0, map.kind);
+    const Defines defines = ambient_defines(device, world, options, around.punctual > 0, map.kind);
     // Without a bounce, the first one shows what is seen; what it leaves pending is not gathered.
     for (std::uint32_t bounce = 0; bounce == 0 || bounce < options.depth; ++bounce) {
         {
@@ -131,7 +132,7 @@ void trace_occlusion(Device& device, const World& world, const LightOptions& opt
                      std::uint32_t sample, const PrimaryHits& primary, BufferView<float> light, BufferView<float> ao) {
     const auto count = static_cast<std::uint32_t>(primary.rays.size());
     const Slices slices = cut(device, count);
-    const Defines defines = ambient_defines(world, options, false, EnvironmentKind::none);
+    const Defines defines = ambient_defines(device, world, options, false, EnvironmentKind::none);
     const Buffer<Ray> rays = make_scratch<Ray>(device, count, "rays of paths");
     const Buffer<Hit> hits = make_scratch<Hit>(device, count, "hits of paths");
     {

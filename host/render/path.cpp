@@ -45,12 +45,12 @@ struct Programs {
     bool next_event;
     KernelRef shade, alpha;
 
-    Programs(const World& world, const LightOptions& options) {
+    Programs(const Device& device, const World& world, const LightOptions& options) {
         const ShadingRequirements& needs = world.appearance.requirements;
         const bool towards = options.strategy != Strategy::bsdf;
         const bool lights = world.appearance.lights.size() > 0 && (needs.punctual || towards);
         next_event = lights || (towards && world.environment.kind != EnvironmentKind::none);
-        Defines defines = scene_defines(needs, options.filter);
+        Defines defines = scene_defines(device, needs, options.filter);
         alpha = {"render/path_alpha.cl", "pass_shadows", defines};
         defines["ALPHA"] = flag(needs.alpha);
         defines["SPECULAR"] = flag(needs.specular);
@@ -70,7 +70,7 @@ public:
     Batch(Device& device, const World& world, const LightOptions& options, std::uint32_t sample,
           const PrimaryHits& primary, SampleLight light)
         : device_(device), world_(world), options_(options), sample_(sample), primary_(primary), light_(light),
-          programs_(world, options), paths_(device, primary.rays.size()), moved_(device, primary.rays.size()),
+          programs_(device, world, options), paths_(device, primary.rays.size()), moved_(device, primary.rays.size()),
           hits_(make_scratch<Hit>(device, primary.rays.size(), "hits of paths")), fronts_(device) {
         if (!programs_.next_event) return;
         shadows_ = Queue<ShadowLight>(device, primary.rays.size());

@@ -14,8 +14,8 @@ namespace boxwood {
 /// The value of a macro that says whether something is needed.
 std::string flag(bool needed);
 
-/// The macros of cl/render/scene_arrays.h, and with textures that of cl/render/texture.h.
-Defines scene_defines(const ShadingRequirements& requirements, TextureFilter filter);
+/// The macros of cl/render/scene_arrays.h and cl/runtime/real.h, and with textures that of cl/render/texture.h.
+Defines scene_defines(const Device& device, const ShadingRequirements& requirements, TextureFilter filter);
 
 /// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
 template <class... Arguments>

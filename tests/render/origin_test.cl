@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Origins of new rays by two methods.
-// compile:
+// compile: LANES=1
 #include "render/surface.h"
 
 /// The method of Waechter and Binder 2019: integer steps of the coordinates along the normal, and near the origin a fixed offset.
@@ -18,16 +18,26 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void origin_test(
     uint count, uint steps, global Ray* out) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
-    float3 origin = (float3)(0.0f), direction = (float3)(0.0f);
-    if (hits[i].primitive != BOXWOOD_NONE) {
+    Rays ray;
+    Hits hit;
+    load_rays(rays, &i, &ray);
+    load_hits(hits, &i, &hit);
+    if (hit.some) {
+        Triangles triangle;
         Surface surface;
-        find_surface(positions, triangles, meshes, instances, vload3(0, rays[i].direction), hits[i], &surface);
-        origin = steps ? step_origin(surface.point, surface.normal) : surface_origin(surface);
-        direction = vload3(i, directions);
-        direction = dot(direction, surface.normal) < 0.0f ? -direction : direction;
+        load_triangles(positions, triangles, meshes, instances, &hit, &triangle);
+        find_surface(&triangle, &ray.direction, &hit, &surface);
+        surface_origin(&surface, &ray.origin);
+        if (steps) {
+            const float3 point = (float3)(surface.point.x, surface.point.y, surface.point.z);
+            spread3(step_origin(point, (float3)(surface.normal.x, surface.normal.y, surface.normal.z)), &ray.origin);
+        }
+        spread3(vload3(i, directions), &ray.direction);
+        scale3(dot3(&ray.direction, &surface.normal) < 0.0f ? -1.0f : 1.0f, &ray.direction);
+        ray.t_min = 0.0f;
+        ray.t_max = INFINITY;
+    } else {
+        clear_rays(1, &ray);
     }
-    vstore3(origin, 0, out[i].origin);
-    out[i].t_min = 0.0f;
-    vstore3(direction, 0, out[i].direction);
-    out[i].t_max = INFINITY;
+    store_rays(&ray, out, &i, 1);
 }
