@@ -9,23 +9,29 @@
 #ifndef BOXWOOD_RENDER_SAMPLER_H
 #define BOXWOOD_RENDER_SAMPLER_H
 #include "render/random.h"
-#include "runtime/numerics.h"
 
 #if !defined(SAMPLER) || SAMPLER < 0 || SAMPLER > 2
 #error "define SAMPLER (0 random, 1 stratified, 2 sobol)"
 #endif
 
+/// A sample of each lane's pixel.
 typedef struct Sampler {
-    ulong key;   ///< Of the seed and the pixel.
+    wide key;    ///< Of the seed and the pixel.
     uint sample; ///< Index among the samples of the pixel.
     uint count;  ///< Samples that are planned for it, >= 1; SAMPLER 1 only.
 } Sampler;
 
 /// Uniform in [0, 1), from the top 24 bits.
-INLINE float unit_float(uint bits) { return (float)(bits >> 8) * 0x1p-24f; }
+INLINE real unit_real(whole bits) { return TO_REAL(AS_INT(bits >> 8)) * 0x1p-24f; }
 
-INLINE uint reverse_bits(uint x) {
-    x = rotate(x, 16u); // by name: Oclgrind lacks the instruction that compilers make of the whole otherwise
+/// The upper and the lower half of 64 random bits so.
+INLINE void unit_reals(wide bits, real* u, real* v) {
+    *u = unit_real(TO_WHOLE(bits >> 32));
+    *v = unit_real(TO_WHOLE(bits));
+}
+
+INLINE whole reverse_bits(whole x) {
+    x = rotate(x, (whole)(16u)); // by name: Oclgrind lacks the instruction that compilers make of the whole otherwise
     x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
     x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
     x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
@@ -34,7 +40,7 @@ INLINE uint reverse_bits(uint x) {
 
 /// A permutation of 32 bits in which a bit depends on itself and on lower ones alone: Owen's scrambling of digits that are
 /// given last one first, by the hash of Laine and Karras 2011 with the constants of Vegdahl.
-INLINE uint scramble_reversed(uint x, uint seed) {
+INLINE whole scramble_reversed(whole x, whole seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -45,7 +51,7 @@ INLINE uint scramble_reversed(uint x, uint seed) {
 
 /// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is the sum of
 /// the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a sum over supersets.
-INLINE uint sobol_second(uint index) {
+INLINE whole sobol_second(whole index) {
     index ^= (index >> 1) & 0x55555555u;
     index ^= (index >> 2) & 0x33333333u;
     index ^= (index >> 4) & 0x0f0f0f0fu;
@@ -55,23 +61,27 @@ INLINE uint sobol_second(uint index) {
 
 /// The place of `index` in a permutation of [0, count) chosen by `seed` (Kensler 2013: rounds of a bijection on the next power
 /// of two, again while outside).
-INLINE uint permute(uint index, uint count, uint seed) {
-    uint mask = count - 1;
-    mask |= mask >> 1;
-    mask |= mask >> 2;
-    mask |= mask >> 4;
-    mask |= mask >> 8;
-    mask |= mask >> 16;
+INLINE whole permute(uint index, uint count, whole seed) {
+    uint bits = count - 1;
+    bits |= bits >> 1;
+    bits |= bits >> 2;
+    bits |= bits >> 4;
+    bits |= bits >> 8;
+    bits |= bits >> 16;
+    whole place = index;
+    mask outside = (mask)(-1);
     do {
-        uint key = seed;
+        whole next = place, key = seed;
         for (uint round = 0; round < 4; ++round) {
-            index = (index * ((key << 1) | 1u)) & mask;
-            index ^= (index >> 3) ^ ((key >> 16) & mask);
-            index = (index + (key ^ (key >> 11))) & mask;
+            next = (next * ((key << 1) | 1u)) & bits;
+            next ^= (next >> 3) ^ ((key >> 16) & bits);
+            next = (next + (key ^ (key >> 11))) & bits;
             key += 0x9e3779b9u;
         }
-    } while (index >= count);
-    return index;
+        place = CHOOSE(outside, next, place);
+        outside = place >= count;
+    } while (ANY(outside));
+    return place;
 }
 
 /// floor(sqrt(x)), x < 2^22: whatever the last digits of the device's root are.
@@ -81,27 +91,27 @@ INLINE uint floor_root(uint x) {
 }
 
 /// A point in [0, 1)^2 for the integral number `dimension` of the sample.
-INLINE float2 sample_square(const Sampler* sampler, uint dimension) {
+INLINE void sample_square(const Sampler* sampler, whole dimension, real* u, real* v) {
 #if SAMPLER == 0
-    const ulong bits = random_bits(random_bits(sampler->key, sampler->sample), dimension);
-    return (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));
+    unit_reals(random_bits(random_bits(sampler->key, (whole)(sampler->sample)), dimension), u, v);
 #else
-    const ulong of_dimension = random_bits(sampler->key, dimension);
+    const wide of_dimension = random_bits(sampler->key, dimension);
 #if SAMPLER == 1
     // columns * rows <= count, and what is left over is less than a row.
     const uint columns = floor_root(sampler->count), rows = sampler->count / columns;
-    const uint cell = permute(sampler->sample % (columns * rows), columns * rows, (uint)of_dimension);
-    const ulong bits = random_bits(of_dimension, sampler->sample);
-    const float2 inside = (float2)(unit_float((uint)(bits >> 32)), unit_float((uint)bits));
-    const float2 corner = (float2)((float)(cell % columns), (float)(cell / columns));
+    const whole cell = permute(sampler->sample % (columns * rows), columns * rows, TO_WHOLE(of_dimension));
+    const whole row = cell / columns;
+    unit_reals(random_bits(of_dimension, (whole)(sampler->sample)), u, v);
     // A sum may round up to the next cell, and in the last one to 1.
-    return LESSER((corner + inside) / (float2)((float)columns, (float)rows), (float2)(0x1.fffffep-1f));
+    *u = LESSER((TO_REAL(cell - row * columns) + *u) / (float)columns, (real)(0x1.fffffep-1f));
+    *v = LESSER((TO_REAL(row) + *v) / (float)rows, (real)(0x1.fffffep-1f));
 #else
     // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a net.
-    const uint index = reverse_bits(scramble_reversed(reverse_bits(sampler->sample), (uint)of_dimension));
-    const ulong seeds = random_bits(of_dimension, 0);
-    return (float2)(unit_float(reverse_bits(scramble_reversed(index, (uint)(seeds >> 32)))),
-                    unit_float(reverse_bits(scramble_reversed(sobol_second(index), (uint)seeds))));
+    const whole reversed = reverse_bits((whole)(sampler->sample));
+    const whole index = reverse_bits(scramble_reversed(reversed, TO_WHOLE(of_dimension)));
+    const wide seeds = random_bits(of_dimension, (whole)(0u));
+    *u = unit_real(reverse_bits(scramble_reversed(index, TO_WHOLE(seeds >> 32))));
+    *v = unit_real(reverse_bits(scramble_reversed(sobol_second(index), TO_WHOLE(seeds))));
 #endif
 #endif
 }

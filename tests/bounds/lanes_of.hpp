@@ -27,9 +27,8 @@ std::vector<float> by_components(const std::vector<std::array<float, size>>& rec
 /// Runs `kernel` (inputs, an output, count), which treats LANES records per work-item, over the records of `inputs`.
 /// `start`: what the output holds before.
 template <std::size_t out_size, class... Inputs>
-std::vector<std::array<float, out_size>> in_lanes(const std::string& file, const std::string& kernel,
-                                                  const std::vector<std::array<float, out_size>>& start,
-                                                  const Inputs&... inputs) {
+std::vector<std::array<float, out_size>>
+in_lanes(KernelRef kernel, const std::vector<std::array<float, out_size>>& start, const Inputs&... inputs) {
     Device& device = test_device();
     const std::size_t count = (start.size() + 7) / 8 * 8;
     const std::vector<float> initial = by_components(start);
@@ -38,8 +37,9 @@ std::vector<std::array<float, out_size>> in_lanes(const std::string& file, const
     for (int k = 0; k < 2; ++k) {
         const Guarded<float> out(device, initial.size());
         write<float>(device, initial, out.view());
-        launch(device, {file, kernel, {{"LANES", lanes[k]}}}, kernel.c_str(), count,
-               upload(device, by_components(inputs), "input")..., out.view(), static_cast<std::uint32_t>(count));
+        kernel.defines["LANES"] = lanes[k];
+        launch(device, kernel, kernel.name.c_str(), count, upload(device, by_components(inputs), "input")...,
+               out.view(), static_cast<std::uint32_t>(count));
         results[k] = out.values();
         CHECK(out.intact());
     }
@@ -48,6 +48,13 @@ std::vector<std::array<float, out_size>> in_lanes(const std::string& file, const
     for (std::size_t i = 0; i < records.size(); ++i)
         for (std::size_t k = 0; k < out_size; ++k) records[i][k] = results[1][k * count + i];
     return records;
+}
+
+template <std::size_t out_size, class... Inputs>
+std::vector<std::array<float, out_size>> in_lanes(const std::string& file, const std::string& kernel,
+                                                  const std::vector<std::array<float, out_size>>& start,
+                                                  const Inputs&... inputs) {
+    return in_lanes({file, kernel, {}}, start, inputs...);
 }
 
 } // namespace boxwood::test

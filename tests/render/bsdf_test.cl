@@ -1,41 +1,50 @@
 // SPDX-License-Identifier: MIT
-// compile: SPECULAR=1 UNIFORM_HEMISPHERE=0
-// compile: SPECULAR=1 UNIFORM_HEMISPHERE=1
-// compile: SPECULAR=0 UNIFORM_HEMISPHERE=0
-// compile: SPECULAR=0 UNIFORM_HEMISPHERE=1
+// compile: LANES=1 SPECULAR=1 UNIFORM_HEMISPHERE=0
+// compile: LANES=8 SPECULAR=1 UNIFORM_HEMISPHERE=0
+// compile: LANES=8 SPECULAR=1 UNIFORM_HEMISPHERE=1
+// compile: LANES=1 SPECULAR=0 UNIFORM_HEMISPHERE=0
+// compile: LANES=8 SPECULAR=0 UNIFORM_HEMISPHERE=0
+// compile: LANES=8 SPECULAR=0 UNIFORM_HEMISPHERE=1
+#include "bounds/lanes_of.h"
 #include "render/bsdf.h"
 
-inline void bsdf_of(global const float* material, Bsdf* bsdf) {
-    make_bsdf(vload3(0, material), material[3], material[4], material[5], bsdf);
+/// Records: base colour, metallic, roughness, specular, and the x and z of wo, whose y is 0.
+INLINE void load_bsdf(global const float* materials, uint count, uint at, Vector* wo, Bsdf* bsdf) {
+    real m[8];
+    load_components(materials, count, at, m, 8);
+    const Vector color = {m[0], m[1], m[2]}, w = {m[6], (real)(0.0f), m[7]};
+    *wo = w;
+    make_bsdf(&color, m[3], m[4], m[5], wo, bsdf);
 }
 
-/// out[4 i] = value and density for directions[3 i] and `wo`. A material is base colour, metallic, roughness and specular.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void evaluate_test(global const float* material, float x, float z,
-                                                                                  global const float* directions, uint count,
-                                                                                  global float* out) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= count) return;
+/// Value and density of each direction.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
+evaluate_test(global const float* materials, global const float* directions, global float* results, uint count) {
+    const uint at = (uint)get_global_id(0) * LANES;
+    if (at >= count) return;
     Bsdf bsdf;
-    bsdf_of(material, &bsdf);
-    float3 value;
-    float pdf;
-    evaluate_bsdf(&bsdf, (float3)(x, 0.0f, z), vload3(i, directions), &value, &pdf);
-    vstore4((float4)(value, pdf), i, out);
+    Vector wo, value;
+    load_bsdf(materials, count, at, &wo, &bsdf);
+    real d[3], pdf;
+    load_components(directions, count, at, d, 3);
+    const Vector wi = {d[0], d[1], d[2]};
+    evaluate_bsdf(&bsdf, &wo, &wi, &value, &pdf);
+    const real values[4] = {value.x, value.y, value.z, pdf};
+    store_components(values, results, count, at, 4);
 }
 
-/// out[7 i] = direction, value and density drawn with points[3 i].
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void sample_test(global const float* material, float x, float z,
-                                                                                global const float* points, uint count,
-                                                                                global float* out) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= count) return;
+/// Direction, value and density drawn with each point.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
+sample_test(global const float* materials, global const float* points, global float* results, uint count) {
+    const uint at = (uint)get_global_id(0) * LANES;
+    if (at >= count) return;
     Bsdf bsdf;
-    bsdf_of(material, &bsdf);
-    const float3 wo = (float3)(x, 0.0f, z);
-    float3 wi, value;
-    float pdf;
-    sample_bsdf(&bsdf, wo, points[3 * i], vload2(0, points + 3 * i + 1), &wi);
-    evaluate_bsdf(&bsdf, wo, wi, &value, &pdf);
-    vstore3(wi, 0, out + 7 * i);
-    vstore4((float4)(value, pdf), 0, out + 7 * i + 3);
+    Vector wo, wi, value;
+    load_bsdf(materials, count, at, &wo, &bsdf);
+    real p[3], pdf;
+    load_components(points, count, at, p, 3);
+    sample_bsdf(&bsdf, &wo, p[0], p[1], p[2], &wi);
+    evaluate_bsdf(&bsdf, &wo, &wi, &value, &pdf);
+    const real values[7] = {wi.x, wi.y, wi.z, value.x, value.y, value.z, pdf};
+    store_components(values, results, count, at, 7);
 }

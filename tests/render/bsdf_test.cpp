@@ -9,8 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "bounds/lanes_of.hpp"
 #include "path_scenes.hpp"
-#include "runtime/launch.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -25,11 +25,16 @@ constexpr double pi = std::numbers::pi;
 struct Matter {
     glm::vec3 base_color{1.0f};
     float metallic = 0.0f, roughness = 0.5f, specular = 1.0f;
-
-    std::vector<float> values() const {
-        return {base_color.x, base_color.y, base_color.z, metallic, roughness, specular};
-    }
 };
+
+/// A material and where it is seen from, wo having y = 0.
+using Seen = std::array<float, 8>;
+
+Seen seen(const Matter& m, const glm::vec3& wo) {
+    return {m.base_color.x, m.base_color.y, m.base_color.z, m.metallic, m.roughness, m.specular, wo.x, wo.z};
+}
+
+using Point = std::array<float, 3>;
 
 struct Programs {
     bool specular = true, uniform = false;
@@ -42,22 +47,20 @@ struct Programs {
 glm::vec3 at_cosine(double z) { return {std::sqrt(std::max(0.0, 1 - z * z)), 0.0, z}; }
 
 /// Value and density of each direction.
+std::vector<glm::dvec4> evaluate(const Programs& programs, const std::vector<Seen>& surfaces,
+                                 const std::vector<glm::vec3>& directions) {
+    std::vector<Point> points;
+    for (const glm::vec3& d : directions) points.push_back({d.x, d.y, d.z});
+    std::vector<glm::dvec4> result;
+    for (const auto& v : in_lanes({"render/bsdf_test.cl", "evaluate_test", programs.defines()},
+                                  std::vector<std::array<float, 4>>(points.size()), surfaces, points))
+        result.emplace_back(v[0], v[1], v[2], v[3]);
+    return result;
+}
+
 std::vector<glm::dvec4> evaluate(const Programs& programs, const Matter& matter, const glm::vec3& wo,
                                  const std::vector<glm::vec3>& directions) {
-    Device& device = test_device();
-    std::vector<float> flat;
-    for (const glm::vec3& d : directions) flat.insert(flat.end(), {d.x, d.y, d.z});
-    const auto count = static_cast<std::uint32_t>(directions.size());
-    Guarded<float> out(device, 4 * directions.size());
-    launch(device, {"render/bsdf_test.cl", "evaluate_test", programs.defines()}, "evaluate test", count,
-           upload(device, matter.values(), "material"), wo.x, wo.z, upload(device, flat, "directions"), count,
-           out.view());
-    CHECK(out.intact());
-    const std::vector<float> values = out.values();
-    std::vector<glm::dvec4> result(count);
-    for (std::size_t i = 0; i < count; ++i)
-        result[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
-    return result;
+    return evaluate(programs, std::vector<Seen>(directions.size(), seen(matter, wo)), directions);
 }
 
 struct Drawn {
@@ -65,26 +68,29 @@ struct Drawn {
     double pdf;
 };
 
-/// Directions drawn with `count` points of Kronecker's sequence with the cubic plastic number (Roberts 2018).
-std::vector<Drawn> draw(const Programs& programs, const Matter& matter, const glm::vec3& wo, std::uint32_t count) {
-    Device& device = test_device();
-    std::vector<float> points;
+/// Kronecker's sequence with the cubic plastic number (Roberts 2018).
+std::vector<Point> sequence(std::uint32_t count) {
+    std::vector<Point> points(count);
     const double g = 1.2207440846057596; // g^4 = g + 1
     for (std::uint32_t i = 0; i < count; ++i)
-        for (int k = 1; k <= 3; ++k) {
-            const double x = 0.5 + (i + 1.0) * std::pow(g, -k);
-            points.push_back(std::min(float(x - std::floor(x)), 0x1.fffffep-1f));
+        for (int k = 0; k < 3; ++k) {
+            const double x = 0.5 + (i + 1.0) * std::pow(g, -k - 1);
+            points[i][k] = std::min(float(x - std::floor(x)), 0x1.fffffep-1f);
         }
-    Guarded<float> out(device, 7 * std::size_t{count});
-    launch(device, {"render/bsdf_test.cl", "sample_test", programs.defines()}, "sample test", count,
-           upload(device, matter.values(), "material"), wo.x, wo.z, upload(device, points, "points"), count,
-           out.view());
-    CHECK(out.intact());
-    const std::vector<float> v = out.values();
-    std::vector<Drawn> result(count);
-    for (std::size_t i = 0; i < count; ++i)
-        result[i] = {{v[7 * i], v[7 * i + 1], v[7 * i + 2]}, {v[7 * i + 3], v[7 * i + 4], v[7 * i + 5]}, v[7 * i + 6]};
+    return points;
+}
+
+/// A direction for each surface and point.
+std::vector<Drawn> draw(const Programs& programs, const std::vector<Seen>& surfaces, const std::vector<Point>& points) {
+    std::vector<Drawn> result;
+    for (const auto& v : in_lanes({"render/bsdf_test.cl", "sample_test", programs.defines()},
+                                  std::vector<std::array<float, 7>>(points.size()), surfaces, points))
+        result.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]});
     return result;
+}
+
+std::vector<Drawn> draw(const Programs& programs, const Matter& matter, const glm::vec3& wo, std::uint32_t count) {
+    return draw(programs, std::vector<Seen>(count, seen(matter, wo)), sequence(count));
 }
 
 /// Centres of the cells of a grid over cosine and azimuth: all stand for the same solid angle.
@@ -169,15 +175,19 @@ TEST_CASE("bsdf: swapping the directions changes nothing but the cosine") {
     const std::vector<glm::vec3> grid = hemisphere_grid(across);
     for (const float roughness : {0.0f, 0.3f, 1.0f}) {
         const Matter matter{{0.9f, 0.5f, 0.2f}, 0.4f, roughness, 0.7f};
+        const glm::vec3 wo = at_cosine(0.35);
+        std::vector<Seen> swapped;
+        std::vector<glm::vec3> turned;
         for (const glm::vec3& wi : grid) {
             // wo has y = 0: both are turned about z.
-            const glm::vec3 wo = at_cosine(0.35);
             const float length = std::hypot(wi.x, wi.y);
-            const glm::vec3 turned(wi.x * wo.x / length, -wi.y * wo.x / length, wo.z);
-            const glm::dvec4 one = evaluate({}, matter, wo, {wi})[0];
-            const glm::dvec4 other = evaluate({}, matter, at_cosine(wi.z), {turned})[0];
+            turned.emplace_back(wi.x * wo.x / length, -wi.y * wo.x / length, wo.z);
+            swapped.push_back(seen(matter, at_cosine(wi.z)));
+        }
+        const std::vector<glm::dvec4> one = evaluate({}, matter, wo, grid), other = evaluate({}, swapped, turned);
+        for (std::size_t i = 0; i < grid.size(); ++i) {
             for (int c = 0; c < 3; ++c) {
-                const double a = one[c] / wi.z, b = other[c] / wo.z;
+                const double a = one[i][c] / grid[i].z, b = other[i][c] / wo.z;
                 // The narrowest lobe multiplies the roundings of the turned vector by the inverse of its width.
                 CHECK(std::abs(a - b) <= (roughness == 0.0f ? 1e-2 : 1e-4) * std::max(a, b));
             }
@@ -220,18 +230,38 @@ TEST_CASE("bsdf: nothing infinite at any angle and roughness") {
     std::vector<glm::vec3> directions;
     for (const double z : {1.0, 0.5, 1e-3, 1e-6, 1e-12, 1e-20, 1e-30, 1e-38, 1e-42, 0.0, -1e-42, -0.5})
         for (const double sign : {-1.0, 1.0}) directions.push_back(glm::vec3(sign, 1, 1) * at_cosine(z));
+    std::vector<Seen> seen_to, seen_from;
+    std::vector<glm::vec3> towards;
+    std::vector<Point> points;
     for (const float roughness : {0.0f, 1e-20f, 0.01f, 1.0f})
         for (const float metallic : {0.0f, 1.0f})
-            for (const double cosine : {1.0, 0.5, 1e-3, 1e-6, 1e-12, 1e-20, 1e-38, 1e-42})
+            for (const double cosine : {1.0, 0.5, 1e-3, 1e-6, 1e-12, 1e-20, 1e-38, 1e-42, 0.0, -1e-42, -1e-3, -1.0})
                 for (const glm::vec3& color : {glm::vec3(0.0f), glm::vec3(1.0f)}) {
-                    CAPTURE(roughness);
-                    CAPTURE(cosine);
-                    const Matter matter{color, metallic, roughness, metallic};
-                    for (const glm::dvec4& v : evaluate({}, matter, at_cosine(cosine), directions))
-                        for (int k = 0; k < 4; ++k) CHECK((v[k] >= 0.0 && std::isfinite(v[k])));
-                    for (const Drawn& d : draw({}, matter, at_cosine(cosine), small_sizes() ? 4 : 64)) {
-                        CHECK((std::isfinite(d.wi.x + d.wi.y + d.wi.z)));
-                        CHECK((d.pdf >= 0.0 && std::isfinite(d.pdf + d.value.x + d.value.y + d.value.z)));
+                    const Seen surface = seen({color, metallic, roughness, metallic}, at_cosine(cosine));
+                    for (const glm::vec3& d : directions) {
+                        seen_to.push_back(surface);
+                        towards.push_back(d);
+                    }
+                    for (Point p : sequence(small_sizes() ? 4 : 64)) {
+                        const auto corner = points.size() % 8; // some at the corners of the square
+                        if (corner < 4)
+                            p = {p[0], corner % 2 ? 0x1.fffffep-1f : 0.0f, corner / 2 ? 0x1.fffffep-1f : 0.0f};
+                        seen_from.push_back(surface);
+                        points.push_back(p);
                     }
                 }
+    int wrong = 0;
+    const std::vector<glm::dvec4> values = evaluate({}, seen_to, towards);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool above = seen_to[i][7] > 0 && towards[i].z > 0;
+        for (int k = 0; k < 4; ++k)
+            if (!(values[i][k] >= 0.0 && std::isfinite(values[i][k]) && (above || values[i][k] == 0.0))) ++wrong;
+    }
+    CHECK(wrong == 0);
+    for (const Drawn& d : draw({}, seen_from, points)) {
+        const double length = glm::length(d.wi);
+        if (!(length > 1 - 1e-6 && length < 1 + 1e-6)) ++wrong;
+        if (!(d.pdf >= 0.0 && std::isfinite(d.pdf + d.value.x + d.value.y + d.value.z))) ++wrong;
+    }
+    CHECK(wrong == 0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -19,15 +20,37 @@ namespace {
 
 enum Kind { random_kind, stratified_kind, sobol_kind };
 
-std::vector<glm::vec2> points(Kind kind, std::uint32_t count, std::uint32_t pixel, std::uint32_t dimension,
-                              std::uint64_t seed = test_seed()) {
-    Guarded<float> out(test_device(), 2 * std::size_t{count});
-    launch(test_device(), {"render/sampler_test.cl", "sampler_test", {{"SAMPLER", std::to_string(kind)}}},
-           "sampler test", count, seed, pixel, dimension, count, out.view());
-    CHECK(out.intact());
-    const std::vector<float> values = out.values();
-    std::vector<glm::vec2> result(count);
-    for (std::size_t i = 0; i < count; ++i) result[i] = {values[2 * i], values[2 * i + 1]};
+struct Place {
+    std::uint32_t pixel, dimension;
+};
+
+/// The first `samples` points, which is how many are planned, of each place; with one lane and with eight.
+std::vector<std::vector<glm::vec2>> points(Kind kind, std::uint32_t samples, const std::vector<Place>& places,
+                                           std::uint64_t seed = test_seed()) {
+    Device& device = test_device();
+    const std::size_t count = (places.size() + 7) / 8 * 8;
+    std::vector<std::uint32_t> pixels(count), dimensions(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Place& place = places[std::min(i, places.size() - 1)];
+        pixels[i] = place.pixel;
+        dimensions[i] = place.dimension;
+    }
+    std::vector<float> values[2];
+    const char* const lanes[2] = {"1", "8"};
+    for (int k = 0; k < 2; ++k) {
+        const Guarded<float> out(device, 2 * count * samples);
+        launch(device,
+               {"render/sampler_test.cl", "sampler_test", {{"SAMPLER", std::to_string(kind)}, {"LANES", lanes[k]}}},
+               "sampler test", count, seed, upload(device, pixels, "pixels"), upload(device, dimensions, "dimensions"),
+               static_cast<std::uint32_t>(count), samples, out.view());
+        CHECK(out.intact());
+        values[k] = out.values();
+    }
+    CHECK(same_bits(values[0], values[1]));
+    std::vector<std::vector<glm::vec2>> result(places.size(), std::vector<glm::vec2>(samples));
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::uint32_t s = 0; s < samples; ++s)
+            result[i][s] = {values[1][2 * s * count + i], values[1][(2 * s + 1) * count + i]};
     return result;
 }
 
@@ -48,7 +71,8 @@ TEST_CASE("sampler: points lie in the unit square, uniformly, and depend on noth
     const std::uint32_t count = small_sizes() ? 64 : 4096;
     for (const Kind kind : {random_kind, stratified_kind, sobol_kind}) {
         CAPTURE(kind);
-        const std::vector<glm::vec2> first = points(kind, count, 7, 3);
+        const auto some = points(kind, count, {{7, 3}, {8, 3}, {7, 4}});
+        const std::vector<glm::vec2>& first = some[0];
         glm::dvec2 mean(0.0), square(0.0);
         double product = 0.0;
         int outside = 0;
@@ -66,10 +90,10 @@ TEST_CASE("sampler: points lie in the unit square, uniformly, and depend on noth
         CHECK(std::abs(square.x - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / count));
         CHECK(std::abs(square.y - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / count));
         CHECK(std::abs(product - 0.25) < 5 * std::sqrt(7.0 / 144 / count));
-        CHECK(points(kind, count, 7, 3) == first);
-        CHECK(points(kind, count, 8, 3) != first);
-        CHECK(points(kind, count, 7, 4) != first);
-        CHECK(points(kind, count, 7, 3, test_seed() + 1) != first);
+        CHECK(points(kind, count, {{7, 3}})[0] == first);
+        CHECK(some[1] != first);
+        CHECK(some[2] != first);
+        CHECK(points(kind, count, {{7, 3}}, test_seed() + 1)[0] != first);
     }
 }
 
@@ -79,12 +103,16 @@ TEST_CASE("sampler: pixels, dimensions and coordinates do not go together") {
     const std::uint32_t count = small_sizes() ? 16 : 512;
     for (const Kind kind : {random_kind, stratified_kind, sobol_kind}) {
         CAPTURE(kind);
+        std::vector<Place> places;
+        for (std::uint32_t pixel = 0; pixel <= count; ++pixel)
+            for (const std::uint32_t dimension : {0u, 1u}) places.push_back({pixel, dimension});
+        const auto all = points(kind, 4, places);
         double with_y = 0.0, with_pixel = 0.0, with_dimension = 0.0;
         for (std::uint32_t pixel = 0; pixel < count; ++pixel) {
-            const glm::dvec2 p = glm::dvec2(points(kind, 4, pixel, 0)[1]) - 0.5;
+            const glm::dvec2 p = glm::dvec2(all[2 * pixel][1]) - 0.5;
             with_y += p.x * p.y;
-            with_pixel += p.x * (points(kind, 4, pixel + 1, 0)[1].x - 0.5);
-            with_dimension += p.x * (points(kind, 4, pixel, 1)[1].x - 0.5);
+            with_pixel += p.x * (all[2 * pixel + 2][1].x - 0.5);
+            with_dimension += p.x * (all[2 * pixel + 1][1].x - 0.5);
         }
         // Each sum has variance count / 144.
         const double bound = 5 * std::sqrt(count / 144.0);
@@ -99,17 +127,20 @@ TEST_CASE("sampler: stratified points lie one in each cell of a grid") {
     for (const std::uint32_t count : {1u, 2u, 12u, 13u, 16u, 64u, small_sizes() ? 50u : 1500u}) {
         CAPTURE(count);
         const auto columns = static_cast<std::uint32_t>(std::sqrt(double(count)));
-        for (std::uint32_t pixel = 0; pixel < 8; ++pixel)
-            CHECK(one_per_cell(points(stratified_kind, count, pixel, pixel), columns, count / columns));
+        std::vector<Place> places;
+        for (std::uint32_t pixel = 0; pixel < 8; ++pixel) places.push_back({pixel, pixel});
+        for (const auto& all : points(stratified_kind, count, places))
+            CHECK(one_per_cell(all, columns, count / columns));
     }
 }
 
 TEST_CASE("sampler: the cells of stratified points have an order of their own in each dimension") {
     std::set<std::vector<int>> orders;
-    for (std::uint32_t dimension = 0; dimension < 16; ++dimension) {
+    std::vector<Place> places;
+    for (std::uint32_t dimension = 0; dimension < 16; ++dimension) places.push_back({0, dimension});
+    for (const auto& all : points(stratified_kind, 16, places)) {
         std::vector<int> order;
-        for (const glm::vec2& p : points(stratified_kind, 16, 0, dimension))
-            order.push_back(int(p.x * 4) + 4 * int(p.y * 4));
+        for (const glm::vec2& p : all) order.push_back(int(p.x * 4) + 4 * int(p.y * 4));
         orders.insert(order);
     }
     CHECK(orders.size() == 16);
@@ -117,13 +148,13 @@ TEST_CASE("sampler: the cells of stratified points have an order of their own in
 
 TEST_CASE("sampler: every prefix of 2^k Sobol points has one in each elementary interval of that size") {
     const std::uint32_t log2 = small_sizes() ? 5 : 10;
-    for (std::uint32_t pixel = 0; pixel < 8; ++pixel) {
-        const std::vector<glm::vec2> all = points(sobol_kind, 1u << log2, pixel, 3 * pixel);
+    std::vector<Place> places;
+    for (std::uint32_t pixel = 0; pixel < 8; ++pixel) places.push_back({pixel, 3 * pixel});
+    for (const auto& all : points(sobol_kind, 1u << log2, places))
         for (std::uint32_t k = 0; k <= log2; ++k)
             for (std::uint32_t x = 0; x <= k; ++x) {
                 CAPTURE(k);
                 CAPTURE(x);
                 CHECK(one_per_cell(all, 1u << x, 1u << (k - x)));
             }
-    }
 }

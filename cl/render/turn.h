@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Sine and cosine of an azimuth that is drawn: the built-in functions differ between devices, and some take lane by lane.
+#ifndef BOXWOOD_RENDER_TURN_H
+#define BOXWOOD_RENDER_TURN_H
+#include "runtime/real.h"
+
+/// Sine and cosine of 2 pi turns, turns in [0, 1], to 0.9 and 1.15 units in the last place; the same bits on every device.
+INLINE void sincos_turn(real turns, real* sine, real* cosine) {
+    // The nearest quarter, in the last bits of a sum; what is left, in [-1/2, 1/2] quarters, is exact.
+    const real quarters = 4.0f * turns, shifted = quarters + 0x1.8p23f, rest = quarters - (shifted - 0x1.8p23f);
+    const mask quarter = AS_INT(shifted), turned = (quarter & 1) != 0;
+    const real square = rest * rest;
+    // Minimax polynomials of sin and cos of (pi / 2) rest; pi / 2 in two floats.
+    const real more = fma(square, fma(square, fma(square, (real)(-0x1.2ddcecp-8f), (real)(0x1.46607ep-4f)), (real)(-0x1.4abbc0p-1f)),
+                          (real)(-0x1.777a5cp-25f));
+    const real odd = fma(rest, (real)(0x1.921fb6p+0f), rest * more);
+    const real less = fma(square, fma(square, fma(square, (real)(0x1.d47d5ep-11f), (real)(-0x1.55b146p-6f)), (real)(0x1.03c1aep-2f)),
+                          (real)(-0x1.3bd3ccp+0f));
+    const real even = fma(square, less, (real)(1.0f));
+    // Signs: the sine's is that of the second half, the cosine's of the second and third quarter.
+    *sine = AS_REAL(AS_INT(CHOOSE(turned, even, odd)) ^ ((quarter & 2) << 30));
+    *cosine = AS_REAL(AS_INT(CHOOSE(turned, odd, even)) ^ (((quarter + 1) & 2) << 30));
+}
+
+#endif
