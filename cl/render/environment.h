@@ -7,8 +7,7 @@
 #ifndef BOXWOOD_RENDER_ENVIRONMENT_H
 #define BOXWOOD_RENDER_ENVIRONMENT_H
 #include "render/search.h"
-#include "runtime/inline.h"
-#include "runtime/numerics.h"
+#include "runtime/vector.h"
 #include "shared/environment.h"
 
 #if !defined(ENVIRONMENT) || ENVIRONMENT < 0 || ENVIRONMENT > 2
@@ -27,79 +26,106 @@ typedef struct EnvironmentArrays {
 #endif
 
 #if ENVIRONMENT == 2
-INLINE float3 environment_texel(const EnvironmentArrays* environment, int column, int row) {
-    const int width = (int)environment->record->width, height = (int)environment->record->height;
-    const int x = column < 0 ? column + width : column >= width ? column - width : column;
-    const int y = clamp(row, 0, height - 1);
-    return vload3((ulong)y * (uint)width + (uint)x, environment->texels);
+/// from becomes (1 - part) from + part to, part in [0, 1]; not negative where neither is.
+INLINE void mix3(real part, const Vector* to, Vector* from) {
+    from->x = fma(part, to->x - from->x, from->x);
+    from->y = fma(part, to->y - from->y, from->y);
+    from->z = fma(part, to->z - from->z, from->z);
 }
 
-/// Radiance at a place of the picture, bilinear between the centres of texels.
-INLINE float3 picture_radiance(const EnvironmentArrays* environment, float2 place) {
-    const float2 corner = floor(place - 0.5f), t = place - 0.5f - corner;
-    const int x = (int)corner.x, y = (int)corner.y;
-    const float3 above = mix(environment_texel(environment, x, y), environment_texel(environment, x + 1, y), t.x);
-    const float3 below = mix(environment_texel(environment, x, y + 1), environment_texel(environment, x + 1, y + 1), t.x);
-    return mix(above, below, t.y);
+/// Radiance at a place of the picture, in texels, bilinear between their centres.
+INLINE void picture_radiance(const EnvironmentArrays* environment, real x, real y, Vector* radiance) {
+    const uint width = environment->record->width;
+    const real right_end = (real)((float)width), bottom = (real)((float)environment->record->height - 1.0f);
+    const real column = floor(x - 0.5f), row = floor(y - 0.5f);
+    const real across = x - 0.5f - column, down = y - 0.5f - row;
+    // Columns wrap around, rows end.
+    const whole left = TO_WHOLE(CHOOSE(column < 0.0f, right_end - 1.0f, column));
+    const whole right = TO_WHOLE(CHOOSE(column + 1.0f < right_end, column + 1.0f, (real)(0.0f)));
+    const whole above = TO_WHOLE(GREATER(row, (real)(0.0f))) * width, below = TO_WHOLE(LESSER(row + 1.0f, bottom)) * width;
+    uint index[LANES];
+    Vector texels[4];
+    STORE_LANES(above + left, index);
+    load_vectors(environment->texels, 3, index, &texels[0]);
+    STORE_LANES(above + right, index);
+    load_vectors(environment->texels, 3, index, &texels[1]);
+    STORE_LANES(below + left, index);
+    load_vectors(environment->texels, 3, index, &texels[2]);
+    STORE_LANES(below + right, index);
+    load_vectors(environment->texels, 3, index, &texels[3]);
+    mix3(across, &texels[1], &texels[0]);
+    mix3(across, &texels[3], &texels[2]);
+    mix3(down, &texels[2], &texels[0]);
+    *radiance = texels[0];
 }
 
 /// Density, by solid angle, in a texel that is chosen with `probability`, uniform over its angles. `sine` is that of the angle
-/// to the picture's axis, at which the density is infinite.
-INLINE float texel_density(global const EnvironmentRecord* record, float probability, float sine) {
-    return probability * ((float)record->width * (float)record->height) * (0.5f * M_1_PI_F * M_1_PI_F) / sine;
+/// to the picture's axis, where the density is infinite: it ends at a sine that floats hardly have room for.
+INLINE real texel_density(global const EnvironmentRecord* record, real probability, real sine) {
+    const float scale = ((float)record->width * (float)record->height) * (0.5f * M_1_PI_F * M_1_PI_F);
+    return probability * scale / GREATER(sine, (real)(0x1p-64f));
 }
 #endif
 
 #if ENVIRONMENT
-/// Radiance from a normalised direction, and the density, by solid angle, with which sample_environment draws it.
-INLINE float3 environment_light(const EnvironmentArrays* environment, float3 direction, float* pdf) {
+/// Radiance from a normalised direction, and the density, by solid angle, with which sample_environment draws it. In lanes whose
+/// direction is anything else, it is anything.
+INLINE void environment_light(const EnvironmentArrays* environment, const Vector* direction, Vector* radiance, real* pdf) {
 #if ENVIRONMENT == 1
     (void)direction;
-    *pdf = 0.5f * M_1_PI_F;
-    return vload3(0, environment->record->radiance);
+    *pdf = (real)(0.5f * M_1_PI_F);
+    spread3(vload3(0, environment->record->radiance), radiance);
 #else
     const uint width = environment->record->width, height = environment->record->height;
-    const float sine = sqrt(direction.x * direction.x + direction.z * direction.z);
-    // By arctangents, which lose no digits at the poles. The middle is -z, the right of it +x.
-    const float2 place = (float2)((0.5f + 0.5f * atan2pi(direction.x, -direction.z)) * (float)width,
-                                  atan2pi(sine, direction.y) * (float)height);
-    const uint row = min((uint)place.y, height - 1u), column = min((uint)place.x, width - 1u);
-    global const float* columns = environment->columns + (ulong)row * (width + 1) + column;
-    const float probability = (environment->rows[row + 1] - environment->rows[row]) * (columns[1] - columns[0]);
-    *pdf = texel_density(environment->record, probability, sine);
-    return picture_radiance(environment, place);
+    const real right = (real)((float)width), bottom = (real)((float)height);
+    const real sine = sqrt(direction->x * direction->x + direction->z * direction->z);
+    // By arctangents, which lose no digits at the poles. The middle is -z, the right of it +x. NaN ends at the right and below.
+    const real turn = atan2pi(direction->x, -direction->z);
+    const real x = LESSER((0.5f + 0.5f * turn) * right, right);
+    const real y = LESSER(atan2pi(sine, direction->y) * bottom, bottom);
+    uint row[LANES], column[LANES];
+    STORE_LANES(TO_WHOLE(LESSER(x, right - 1.0f)), column);
+    STORE_LANES(TO_WHOLE(LESSER(y, bottom - 1.0f)), row);
+    float of_row[LANES], of_column[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        const float2 rows = vload2(0, environment->rows + row[lane]);
+        const float2 columns = vload2(0, environment->columns + (size_t)row[lane] * (width + 1) + column[lane]);
+        of_row[lane] = rows.y - rows.x;
+        of_column[lane] = columns.y - columns.x;
+    }
+    *pdf = texel_density(environment->record, LOAD_LANES(of_row) * LOAD_LANES(of_column), sine);
+    picture_radiance(environment, x, y, radiance);
 #endif
 }
 
-INLINE float3 environment_radiance(const EnvironmentArrays* environment, float3 direction) {
-    float pdf;
-    return environment_light(environment, direction, &pdf);
-}
-
-/// Draws a direction by u in [0, 1)^2; tells its radiance and its density. `normal` is that of the surface, read for a constant
-/// environment.
-INLINE float3 sample_environment(const EnvironmentArrays* environment, float3 normal, float2 u, float3* direction,
-                                 float* pdf) {
+/// Draws a direction by u and v in [0, 1); tells its radiance and its density. `normal` is that of the surface, read for a
+/// constant environment.
+INLINE void sample_environment(const EnvironmentArrays* environment, const Vector* normal, real u, real v, Vector* direction,
+                               Vector* radiance, real* pdf) {
 #if ENVIRONMENT == 1
-    const float z = 1.0f - 2.0f * u.y;
-    const float radius = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
-    const float3 d = (float3)(radius * cospi(2.0f * u.x), radius * sinpi(2.0f * u.x), z);
-    *direction = dot(d, normal) < 0.0f ? -d : d;
-    *pdf = 0.5f * M_1_PI_F;
-    return vload3(0, environment->record->radiance);
+    const real z = 1.0f - 2.0f * v;
+    const real radius = sqrt(GREATER(1.0f - z * z, (real)(0.0f)));
+    const Vector d = {radius * cospi(2.0f * u), radius * sinpi(2.0f * u), z};
+    const real sign = CHOOSE(dot3(&d, normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
+    *direction = d;
+    scale3(sign, direction);
+    *pdf = (real)(0.5f * M_1_PI_F);
+    spread3(vload3(0, environment->record->radiance), radiance);
 #else
     const uint width = environment->record->width, height = environment->record->height;
-    float of_row, of_column;
-    float across = u.x, down = u.y;
-    const uint row = choose(environment->rows, height, &down, &of_row);
-    const uint column = choose(environment->columns + (ulong)row * (width + 1), width, &across, &of_column);
+    uint zero[LANES], row[LANES], column[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
+    real of_row, of_column;
+    choose(environment->rows, height, zero, &v, row, &of_row);
+    choose(environment->columns, width, row, &u, column, &of_column);
     (void)normal;
-    const float2 place = (float2)((float)column + across, (float)row + down);
-    const float polar = place.y / (float)height, turn = 2.0f * place.x / (float)width - 1.0f;
-    const float sine = sinpi(polar);
-    *direction = (float3)(sine * sinpi(turn), cospi(polar), -sine * cospi(turn));
+    const real x = TO_REAL(LOAD_LANES(column)) + u, y = TO_REAL(LOAD_LANES(row)) + v;
+    const real polar = y / (float)height, turn = 2.0f * (x / (float)width) - 1.0f;
+    const real sine = sinpi(polar);
+    const Vector d = {sine * sinpi(turn), cospi(polar), -(sine * cospi(turn))};
+    *direction = d;
     *pdf = texel_density(environment->record, of_row * of_column, sine);
-    return picture_radiance(environment, place);
+    picture_radiance(environment, x, y, radiance);
 #endif
 }
 #endif

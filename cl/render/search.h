@@ -2,26 +2,37 @@
 // Choosing one of many by chance.
 #ifndef BOXWOOD_RENDER_SEARCH_H
 #define BOXWOOD_RENDER_SEARCH_H
-#include "runtime/inline.h"
+#include "runtime/real.h"
 
-/// Chooses one of `count` > 0 elements: element i with the probability distribution[i + 1] - distribution[i], where the
-/// `count` + 1 values ascend from 0 to 1. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(log count).
-INLINE uint choose(global const float* distribution, uint count, float* u, float* probability) {
-    uint low = 0;
-    for (uint left = count; left > 1;) {
-        // Which way it goes cannot be foreseen: no branch. Floats that are not negative compare as their bits do, and these
-        // are at most those of 1, so that the difference has the sign.
-        const uint step = left >> 1;
-        const int below = (as_int(*u) - as_int(distribution[low + step])) >> 31;
-        low += step & ~(uint)below;
-        left -= step;
+/// Chooses one of `count` > 0 elements in each lane, by row[lane] of the distributions of `count` + 1 values each, which ascend
+/// from 0 to 1: element i with the probability distribution[i + 1] - distribution[i]. `u` in [0, 1) becomes what is left of it,
+/// uniform in [0, 1) again. O(log count). Any u, even NaN, gives an element.
+INLINE void choose(global const float* distributions, uint count, const uint* row, real* u, uint* index, real* probability) {
+    // Which way it goes cannot be foreseen: no branch. Floats that are not negative compare as their bits do, and these are at
+    // most those of 1, so that the difference has the sign.
+    int bits[LANES];
+    STORE_LANES(AS_INT(*u), bits);
+    global const float* start[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        start[lane] = distributions + (size_t)row[lane] * (count + 1);
+        index[lane] = 0;
     }
-    // With 0 and 1 at the ends and u below 1, low is an element of a probability that is not 0.
-    const float first = distribution[low];
-    *probability = distribution[low + 1] - first;
-    const float rest = (*u - first) / *probability;
-    *u = rest < 1.0f ? rest : 0x1.fffffep-1f;
-    return low;
+    for (uint left = count; left > 1; left -= left >> 1) {
+        const uint step = left >> 1;
+        for (uint lane = 0; lane < LANES; ++lane) {
+            const int below = (bits[lane] - as_int(start[lane][index[lane] + step])) >> 31;
+            index[lane] += step & ~(uint)below;
+        }
+    }
+    // With 0 and 1 at the ends and u below 1, that is an element of a probability that is not 0.
+    float low[LANES], high[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        low[lane] = start[lane][index[lane]];
+        high[lane] = start[lane][index[lane] + 1];
+    }
+    const real first = LOAD_LANES(low);
+    *probability = LOAD_LANES(high) - first;
+    *u = GREATER(LESSER((*u - first) / *probability, (real)(0x1.fffffep-1f)), (real)(0.0f));
 }
 
 #endif

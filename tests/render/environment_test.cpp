@@ -2,12 +2,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "bounds/lanes_of.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
 #include "boxwood/material.hpp"
@@ -34,28 +37,37 @@ Answers ask(const Environment& environment, const std::vector<glm::vec3>& direct
             const std::vector<glm::vec2>& points) {
     Device& device = test_device();
     const EnvironmentMap map = upload_environment(device, environment);
-    const std::size_t count = std::max(directions.size(), points.size());
-    std::vector<float> d, p;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 direction = i < directions.size() ? directions[i] : glm::vec3(0, 1, 0);
-        const glm::vec2 point = i < points.size() ? points[i] : glm::vec2(0.0f);
-        d.insert(d.end(), {direction.x, direction.y, direction.z});
-        p.insert(p.end(), {point.x, point.y});
+    std::vector<std::array<float, 3>> d(std::max(directions.size(), points.size()), {0, 1, 0});
+    std::vector<std::array<float, 2>> p(d.size(), {0, 0});
+    for (std::size_t i = 0; i < directions.size(); ++i) d[i] = {directions[i].x, directions[i].y, directions[i].z};
+    for (std::size_t i = 0; i < points.size(); ++i) p[i] = {points[i].x, points[i].y};
+    const std::size_t count = (d.size() + 7) / 8 * 8;
+    const std::string kind = map.kind == EnvironmentKind::picture ? "2" : "1";
+    std::vector<float> a[2], b[2];
+    for (const int k : {0, 1}) {
+        const Guarded<float> out(device, 4 * count), drawn(device, 7 * count);
+        launch(
+            device,
+            {"render/environment_test.cl", "environment_test", {{"ENVIRONMENT", kind}, {"LANES", k == 0 ? "1" : "8"}}},
+            "environment test", count, map.record, map.texels, map.rows, map.columns,
+            upload(device, by_components(d), "directions"), upload(device, by_components(p), "points"),
+            static_cast<std::uint32_t>(count), out.view(), drawn.view());
+        CHECK(out.intact());
+        CHECK(drawn.intact());
+        a[k] = out.values();
+        b[k] = drawn.values();
     }
-    Guarded<float> out(device, 4 * count), drawn(device, 7 * count);
-    const char* kind = map.kind == EnvironmentKind::picture ? "2" : "1";
-    launch(device, {"render/environment_test.cl", "environment_test", {{"ENVIRONMENT", kind}}}, "environment test",
-           count, map.record, map.texels, map.rows, map.columns, upload(device, d, "directions"),
-           upload(device, p, "points"), static_cast<std::uint32_t>(count), out.view(), drawn.view());
-    CHECK(out.intact());
-    CHECK(drawn.intact());
-    const std::vector<float> a = out.values(), b = drawn.values();
+    CHECK(same_bits(a[0], a[1]));
+    CHECK(same_bits(b[0], b[1]));
+    const auto of = [&](const std::vector<float>& values, std::size_t component, std::size_t i) {
+        return double(values[component * count + i]);
+    };
     Answers answers;
     for (std::size_t i = 0; i < directions.size(); ++i)
-        answers.lookups.emplace_back(a[4 * i], a[4 * i + 1], a[4 * i + 2], a[4 * i + 3]);
+        answers.lookups.emplace_back(of(a[1], 0, i), of(a[1], 1, i), of(a[1], 2, i), of(a[1], 3, i));
     for (std::size_t i = 0; i < points.size(); ++i) {
-        answers.drawn.emplace_back(b[7 * i], b[7 * i + 1], b[7 * i + 2], b[7 * i + 3]);
-        answers.light.emplace_back(b[7 * i + 4], b[7 * i + 5], b[7 * i + 6]);
+        answers.drawn.emplace_back(of(b[1], 0, i), of(b[1], 1, i), of(b[1], 2, i), of(b[1], 3, i));
+        answers.light.emplace_back(of(b[1], 4, i), of(b[1], 5, i), of(b[1], 6, i));
     }
     return answers;
 }
