@@ -89,8 +89,9 @@ INLINE mask punctual_light(global const LightRecord* lights, global const float*
     const float all = distribution[count];
     choice *= all;
     real probability;
-    uint index[LANES];
-    choose(distribution, count, &choice, &probability, index);
+    uint index[LANES], row[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) row[lane] = 0;
+    choose(distribution, count, row, &choice, index, &probability);
     LightSample sample;
     sample_punctual(lights, index, &vertex->origin, probability / all, &sample);
     const real cosine = dot3(&sample.direction, &vertex->point.normal);

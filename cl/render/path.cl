@@ -68,7 +68,6 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
     const Vector direction = rays->direction;
     const mask first = paths->bounces == 0;
     const real width = fma(paths->spread, hits->t, paths->width);
-    real u, v;
     Beam beam;
     Vertex vertex;
     find_beam(camera, settings, &direction, hits->t, first, width, &beam);
@@ -76,8 +75,9 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
 #if ALPHA
     const Paths before = *paths;
     const Rays rays_before = *rays;
-    sample_square(&sampler, ALPHA_DIMENSION + paths->layers, &u, &v);
-    const mask passes = met & (vertex.point.alpha < 1.0f) & (u >= vertex.point.alpha);
+    real chance, unused;
+    sample_square(&sampler, ALPHA_DIMENSION + paths->layers, &chance, &unused);
+    const mask passes = met & (vertex.point.alpha < 1.0f) & (chance >= vertex.point.alpha);
     met &= NOT(passes);
 #endif
     Vector light;
@@ -91,6 +91,7 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
         real light_choice, lobe_choice;
         sample_square(&sampler, dimension + CHOICE_DIMENSION, &light_choice, &lobe_choice);
 #if NEXT_EVENT
+        real u, v;
         sample_square(&sampler, dimension + LIGHT_DIMENSION, &u, &v);
         gathered->has_shadow =
             goes_on & next_event(world, &vertex, light_choice, u, v, &gathered->shadow_rays, &gathered->shadow);
