@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Light from the lights of a scene: one chosen by power, a point on it, and with what density. Macros: render/shading_point.h.
+// Light from the lights of a scene: one chosen by power, a point on it, and with what density. Nothing depends on how large the
+// scene is. Macros: render/shading_point.h, runtime/real.h.
 //
-// ALPHA  1: some surface lets light pass
+// ALPHA     1: some surface lets light pass
+// EMISSION  1: some triangles are lights
 #ifndef BOXWOOD_RENDER_LIGHTS_H
 #define BOXWOOD_RENDER_LIGHTS_H
 #include "render/search.h"
 #include "render/shading_point.h"
+#include "runtime/vector.h"
 #include "shared/light.h"
 
-#ifndef ALPHA
-#error "define ALPHA (0 or 1)"
+#if !defined(ALPHA) || !defined(EMISSION)
+#error "define ALPHA and EMISSION (0 or 1)"
 #endif
 
 /// The lights of an Appearance.
@@ -21,122 +24,240 @@ typedef struct LightArrays {
 
 /// Light on a point from one place.
 typedef struct LightSample {
-    float3 segment;   ///< From the point to what must be free of obstacles.
-    float t_max;      ///< Where that ends, in lengths of the segment.
-    float3 direction; ///< The same, normalised.
-    float3 value;     ///< Radiance over density: times f cos it is what the point reflects.
-    float pdf;        ///< Density by solid angle; 0 for a light without extent.
+    Vector segment;   ///< From the point to what must be free of obstacles.
+    real t_max;       ///< Where that ends, in lengths of the segment.
+    Vector direction; ///< The same, normalised.
+    Vector value;     ///< Radiance over density: times f cos it is what the point reflects.
+    real pdf;         ///< Density by solid angle; 0 for a light without extent.
 } LightSample;
+
+/// A LightRecord in each lane.
+typedef struct Light {
+    Vector position, axis, intensity, edges[2];
+    mask kind, two_sided;
+    real range, inverse_size, cone_scale, cone_edge, clearance;
+} Light;
 
 // The largest float below 1: the end of a segment is left out.
 #define BEFORE_END 0x1.fffffep-1f
 
-/// The light without extent that `light` is, chosen with `probability`; value 0 where it does not reach.
-INLINE void sample_punctual(global const LightRecord* light, float3 origin, float probability, LightSample* sample) {
-    const float3 axis = vload3(0, light->direction), intensity = vload3(0, light->intensity);
-    sample->pdf = 0.0f;
-    if (light->kind == BOXWOOD_DIRECTIONAL_LIGHT) {
-        sample->segment = sample->direction = -axis;
-        sample->t_max = INFINITY;
-        sample->value = intensity / probability;
-        return;
-    }
-    // As KHR_lights_punctual has it: an inverse square with a window that closes at the range, and a cone's edge.
-    sample->segment = vload3(0, light->position) - origin;
-    sample->t_max = BEFORE_END;
-    sample->direction = normalize_any(sample->segment);
-    const float square = dot(sample->segment, sample->segment);
-    const float part = square / (light->range * light->range), window = clamp(1.0f - part * part, 0.0f, 1.0f);
-    float strength = window / (square * probability);
-    if (light->kind == BOXWOOD_SPOT_LIGHT) {
-        const float cosine = -dot(sample->direction, axis);
-        const float edge = clamp(cosine * light->cone_scale + light->cone_offset, 0.0f, 1.0f);
-        strength *= edge * edge;
-    }
-    sample->value = square > 0.0f ? intensity * strength : (float3)(0.0f);
+#define LIGHT_FLOATS 24
+
+INLINE void load_lights(global const LightRecord* records, const uint* index, Light* light) {
+    global const float* base = (global const float*)records;
+    real v[LIGHT_FLOATS];
+    load_rows8(base, LIGHT_FLOATS, index, v);
+    load_rows8(base + 8, LIGHT_FLOATS, index, v + 8);
+    load_rows8(base + 16, LIGHT_FLOATS, index, v + 16);
+    const Light loaded = {{v[0], v[1], v[2]},
+                          {v[4], v[5], v[6]},
+                          {v[8], v[9], v[10]},
+                          {{v[12], v[13], v[14]}, {v[15], v[16], v[17]}},
+                          AS_INT(v[3]),
+                          AS_INT(v[22]) != 0,
+                          v[7],
+                          v[11],
+                          v[18],
+                          v[19],
+                          v[23]};
+    *light = loaded;
 }
 
-/// Radiance of a triangle at a place on it, towards its front.
-INLINE float3 light_radiance(const SceneArrays* scene, global const LightRecord* light, Hit place) {
-    float3 radiance = vload3(0, light->intensity);
+/// A difference of products to two roundings of itself, however much they cancel (Jeannerod et al. 2013).
+INLINE real products_difference(real a, real b, real c, real d) {
+    const real second = c * d;
+    return fma(a, b, -second) + fma(-c, d, second);
+}
+
+/// The part of a spot's intensity that goes along `direction`, which is `v` normalised. As KHR_lights_punctual has it, but by
+/// 1 - cosine = sine^2 / (1 + cosine), `square` being that of v.
+INLINE real spot_edge(const Light* light, const Vector* v, real square, const Vector* direction) {
+    const Vector* axis = &light->axis;
+    const Vector sine = {products_difference(axis->y, v->z, axis->z, v->y) * light->cone_scale,
+                         products_difference(axis->z, v->x, axis->x, v->z) * light->cone_scale,
+                         products_difference(axis->x, v->y, axis->y, v->x) * light->cone_scale};
+    const real cosine = -dot3(direction, axis);
+    const real off = dot3(&sine, &sine) / (square * (1.0f + cosine));
+    const real edge = LESSER((1.0f - off) * light->cone_edge, (real)(1.0f));
+    return CHOOSE((cosine > 0.0f) & (edge > 0.0f), edge * edge, (real)(0.0f));
+}
+
+/// The lights without extent, chosen with `probability`; value 0 where one does not reach.
+INLINE void punctual_light(const Light* light, const Vector* origin, real probability, LightSample* sample) {
+    // As KHR_lights_punctual has it: an inverse square with a window that closes at the range, and a cone's edge.
+    Vector v;
+    subtract3(&light->position, origin, &v);
+    sample->segment = v;
+    const real power = power_below(largest3(&v)), inverse = inverse_power(power);
+    scale3(inverse, &v);
+    const real square = dot3(&v, &v), length = sqrt(square);
+    sample->direction = v;
+    scale3(CHOOSE(square > 0.0f, 1.0f / length, (real)(0.0f)), &sample->direction);
+    const real reach = power * (length / light->range), part = reach * reach, window = 1.0f - part * part;
+    real strength = CHOOSE((square > 0.0f) & (window > 0.0f), window / (square * probability), (real)(0.0f));
+    const mask spot = light->kind == (int)BOXWOOD_SPOT_LIGHT;
+    if (ANY(spot)) {
+        const real edge = spot_edge(light, &v, square, &sample->direction);
+        strength = CHOOSE(spot, strength * edge, strength);
+    }
+    sample->value = light->intensity;
+    scale3(inverse, &sample->value);
+    scale3(inverse, &sample->value);
+    scale3(strength, &sample->value);
+    sample->t_max = (real)(BEFORE_END);
+    sample->pdf = (real)(0.0f);
+
+    const mask distant = light->kind == (int)BOXWOOD_DIRECTIONAL_LIGHT;
+    if (ANY(distant)) {
+        const Vector towards = {-light->axis.x, -light->axis.y, -light->axis.z};
+        choose3(distant, &towards, &sample->segment);
+        choose3(distant, &towards, &sample->direction);
+        Vector value = light->intensity;
+        scale3(1.0f / probability, &value);
+        choose3(distant, &value, &sample->value);
+        sample->t_max = CHOOSE(distant, (real)(INFINITY), sample->t_max);
+    }
+}
+
+/// The lights without extent that `index` names; of others anything.
+INLINE void sample_punctual(global const LightRecord* records, const uint* index, const Vector* origin, real probability,
+                            LightSample* sample) {
+    Light light;
+    load_lights(records, index, &light);
+    punctual_light(&light, origin, probability, sample);
+}
+
+#if EMISSION
 #if TEXTURES || ALPHA
-    Place at;
-    place_of(scene, place, &at);
-#if UV_SETS
-    at.weight_x = at.weight_y = (float2)(0.0f);
-#endif
+/// What textures and alpha make of the radiance of a triangle at a place on it. The finest level of a texture: as if the lamp
+/// were seen from near, whatever the beam that meets it.
+inline float3 lamp_texture_at(const SceneArrays* scene, uint instance, uint primitive, float u, float v) {
+    float3 factor = (float3)(1.0f);
+    Spot spot;
+    spot_of(scene, instance, primitive, u, v, &spot);
+    global const MaterialRecord* material = scene->materials + spot.material;
 #if TEXTURES
-    radiance *= texture_at(scene, &at, scene->materials[at.material].textures + BOXWOOD_EMISSION).xyz;
+    factor *= texture_at(scene, &spot, material->textures + BOXWOOD_EMISSION).xyz;
 #endif
 #if ALPHA
-    radiance *= stopped_share(scene->materials + at.material, color_at(scene, &at).w);
+    factor *= stopped_share(material, color_at(scene, &spot).w);
 #endif
-#else
-    (void)scene;
-    (void)place;
-#endif
-    return radiance;
+    return factor;
 }
 
-#if EMISSION
-/// The triangle that `light` is, at a uniform point of it. The segment ends clear of it.
-INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* light, float3 origin, float2 u,
-                            float probability, LightSample* sample) {
-    const float root = sqrt(u.x);
-    const Hit place = {1.0f, root * (1.0f - u.y), root * u.y, light->primitive, light->instance};
-    const float3 along = place.u * vload3(0, light->edges[0]) + place.v * vload3(0, light->edges[1]);
-    const float3 point = vload3(0, light->position) + along;
-    const float3 front = vload3(0, light->direction);
-    const bool behind = dot(front, origin - point) < 0.0f;
-    const float3 normal = behind ? -front : front;
-    sample->segment = point + light->clearance * normal - origin;
-    sample->t_max = BEFORE_END;
-    sample->direction = normalize_any(sample->segment);
-    const float cosine = -dot(sample->direction, normal);
-    sample->value = (float3)(0.0f);
-    sample->pdf = 0.0f;
-    if (!(cosine > 0.0f) || (behind && !light->two_sided)) return;
-    sample->pdf = probability * (dot(sample->segment, sample->segment) / (cosine * light->area));
-    if (sample->pdf > 0.0f) sample->value = light_radiance(scene, light, place) / sample->pdf;
-}
-
-/// Density, by solid angle, with which sample_light draws the place that a ray met after `distance` at an angle of `cosine`.
-/// O(log lights): triangles are ordered by instance and primitive, after the lights without extent.
-INLINE float triangle_pdf(const LightArrays* lights, Hit hit, float distance, float cosine) {
-    const ulong wanted = (ulong)hit.instance << 32 | hit.primitive;
-    uint low = 0, high = lights->count;
-    while (low < high) {
-        const uint middle = low + (high - low) / 2;
-        global const LightRecord* light = lights->records + middle;
-        const bool before = light->kind != BOXWOOD_TRIANGLE_LIGHT || ((ulong)light->instance << 32 | light->primitive) < wanted;
-        low = before ? middle + 1 : low;
-        high = before ? high : middle;
+/// The same in the lanes that are wanted, for the lights that `index` names; `value` is multiplied by it.
+INLINE void shade_lamps(const SceneArrays* scene, global const LightRecord* records, const uint* index, mask wanted, real u,
+                        real v, Vector* value) {
+    int wants[LANES];
+    float us[LANES], vs[LANES], red[LANES], green[LANES], blue[LANES];
+    STORE_LANES(wanted, wants);
+    STORE_LANES(u, us);
+    STORE_LANES(v, vs);
+    for (uint lane = 0; lane < LANES; ++lane) {
+        float3 factor = (float3)(1.0f);
+        global const LightRecord* record = records + index[lane];
+        if (wants[lane]) factor = lamp_texture_at(scene, record->instance, record->primitive, us[lane], vs[lane]);
+        red[lane] = factor.x;
+        green[lane] = factor.y;
+        blue[lane] = factor.z;
     }
-    if (low == lights->count) return 0.0f;
-    global const LightRecord* light = lights->records + low;
-    if (light->instance != hit.instance || light->primitive != hit.primitive) return 0.0f;
-    const float probability = lights->distribution[low + 1] - lights->distribution[low];
-    return cosine > 0.0f ? probability * (distance * distance / (cosine * light->area)) : 0.0f;
+    const Vector factors = {LOAD_LANES(red), LOAD_LANES(green), LOAD_LANES(blue)};
+    multiply3(value, &factors, value);
 }
 #endif
 
-/// Light on `origin`; `choice` in [0, 1) takes the light, which all together have `share` of the samples, u the point on it.
-INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, float3 origin, float choice, float2 u,
+/// The triangles at a uniform point of each; `sample` stays as it is where not `wanted`. The segment ends clear of the triangle.
+INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* records, const uint* index, const Light* light,
+                            mask wanted, const Vector* origin, real u, real v, real probability, LightSample* sample) {
+    const real root = sqrt(u), along1 = root * (1.0f - v), along2 = root * v;
+    Vector point = {along1 * light->edges[0].x + along2 * light->edges[1].x,
+                    along1 * light->edges[0].y + along2 * light->edges[1].y,
+                    along1 * light->edges[0].z + along2 * light->edges[1].z};
+    add3(&light->position, &point, &point);
+    Vector normal = light->axis, segment;
+    subtract3(&point, origin, &segment);
+    const mask behind = dot3(&normal, &segment) > 0.0f;
+    scale3(CHOOSE(behind, (real)(-1.0f), (real)(1.0f)), &normal);
+    add_scaled3(light->clearance, &normal, &point);
+    subtract3(&point, origin, &segment);
+
+    const real power = power_below(largest3(&segment));
+    Vector direction = segment;
+    scale3(inverse_power(power), &direction);
+    const real square = dot3(&direction, &direction);
+    scale3(CHOOSE(square > 0.0f, 1.0f / sqrt(square), (real)(0.0f)), &direction);
+    const real cosine = -dot3(&direction, &normal), far = power * light->inverse_size;
+    const real density = probability * (square / cosine) * far * far;
+    const mask lit = wanted & (cosine > 0.0f) & (NOT(behind) | light->two_sided) & (density > 0.0f) &
+                     (density < INFINITY);
+    const real pdf = CHOOSE(lit, density, (real)(0.0f)), weight = CHOOSE(lit, 1.0f / density, (real)(0.0f));
+    Vector value = light->intensity;
+    scale3(weight, &value);
+#if TEXTURES || ALPHA
+    shade_lamps(scene, records, index, lit, along1, along2, &value);
+#endif
+    choose3(wanted, &segment, &sample->segment);
+    choose3(wanted, &direction, &sample->direction);
+    choose3(wanted, &value, &sample->value);
+    sample->pdf = CHOOSE(wanted, pdf, sample->pdf);
+    sample->t_max = CHOOSE(wanted, (real)(BEFORE_END), sample->t_max);
+}
+
+/// Density, by solid angle, with which sample_light draws the place that a ray met after `distance` at an angle of `cosine`; 0
+/// where a lane's triangle is no light. O(log lights): triangles are ordered by instance and primitive, after the lights without
+/// extent, which have no instance.
+INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const uint* primitive, real distance, real cosine) {
+    uint low[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) low[lane] = 0;
+    for (uint left = lights->count; left > 1; left -= left >> 1) {
+        const uint step = left >> 1;
+        for (uint lane = 0; lane < LANES; ++lane) {
+            // BOXWOOD_NONE + 1 is 0: before all others.
+            global const LightRecord* light = lights->records + low[lane] + step;
+            const ulong key = (ulong)(light->instance + 1u) << 32 | light->primitive;
+            const ulong wanted = (ulong)(instance[lane] + 1u) << 32 | primitive[lane];
+            low[lane] += key <= wanted ? step : 0u;
+        }
+    }
+    float probabilities[LANES], sizes[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        global const LightRecord* light = lights->records + low[lane];
+        const float probability = lights->distribution[low[lane] + 1] - lights->distribution[low[lane]];
+        const bool found = light->kind == BOXWOOD_TRIANGLE_LIGHT && light->instance == instance[lane] &&
+                           light->primitive == primitive[lane];
+        probabilities[lane] = found ? probability : 0.0f;
+        sizes[lane] = light->inverse_size;
+    }
+    const real probability = LOAD_LANES(probabilities), far = distance * LOAD_LANES(sizes);
+    return CHOOSE((cosine > 0.0f) & (probability > 0.0f), probability * (far * far / cosine), (real)(0.0f));
+}
+#endif
+
+/// Light on `origin`; `choice` in [0, 1) takes the light, u and v the point on it. All lights together have `share` of the samples.
+INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const Vector* origin, real choice, real u, real v,
                          float share, LightSample* sample) {
-    float probability;
-    const uint index = choose(lights->distribution, lights->count, &choice, &probability);
-    global const LightRecord* light = lights->records + index;
+    uint zero[LANES], index[LANES];
+    for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
+    real probability;
+    choose(lights->distribution, lights->count, zero, &choice, index, &probability);
     probability *= share;
+    Light light;
+    load_lights(lights->records, index, &light);
 #if EMISSION
-    if (light->kind == BOXWOOD_TRIANGLE_LIGHT) {
-        sample_triangle(scene, light, origin, u, probability, sample);
-        return;
+    const mask triangle = light.kind == (int)BOXWOOD_TRIANGLE_LIGHT;
+    const real none = 0.0f;
+    const LightSample dark = {{none, none, none}, none, {none, none, none}, {none, none, none}, none};
+    *sample = dark;
+    if (ANY(NOT(triangle))) punctual_light(&light, origin, probability, sample);
+    if (ANY(triangle)) {
+        sample_triangle(scene, lights->records, index, &light, triangle, origin, u, v, probability, sample);
     }
 #else
     (void)scene;
     (void)u;
+    (void)v;
+    punctual_light(&light, origin, probability, sample);
 #endif
-    sample_punctual(light, origin, probability, sample);
 }
 
 #endif

@@ -18,15 +18,17 @@ typedef struct LightRecord {
     float direction[3]; ///< Where the light goes, normalised. Spot, directional; of a triangle its front's unit normal.
     float range;        ///< Point, spot.
     float intensity
-        [3];    ///< Per steradian (point, spot), irradiance (directional), radiance (triangle, before its texture).
-    float area; ///< Triangle, world space.
-    float edges[2][3]; ///< Triangle: from the first vertex to the others, world space.
-    float cone_scale;  ///< Spot: intensity times clamp(cosine * scale + offset)^2, as KHR_lights_punctual has it.
-    float cone_offset;
-    uint instance;  ///< Triangle: index into Scene::instances.
-    uint primitive; ///< Triangle: index within its mesh.
-    uint two_sided; ///< Triangle.
-    float clearance; ///< Triangle: what takes a point clear of it (render/surface.h: surface_clearance).
+        [3]; ///< Per steradian (point, spot), irradiance (directional), radiance (triangle, before its texture).
+    float inverse_size; ///< Triangle: 1 / sqrt(area), world space.
+    float edges[2][3];  ///< Triangle: from the first vertex to the others, world space.
+    // Spot: intensity times clamp((1 - scale^2 (1 - cosine)) * edge, 0, 1)^2, as KHR_lights_punctual has it, written so that
+    // narrow cones lose no digits.
+    float cone_scale; ///< 1 / sqrt(1 - cos outer).
+    float cone_edge;  ///< 1 / (1 - (1 - cos inner) / (1 - cos outer)).
+    uint instance;    ///< Triangle: index into Scene::instances.
+    uint primitive;   ///< Triangle: index within its mesh.
+    uint two_sided;   ///< Triangle.
+    float clearance;  ///< Triangle: what takes a point clear of it (render/surface.h: surface_clearance).
 } LightRecord;
 BOXWOOD_SHARED_SIZE(LightRecord, 96)
 

@@ -104,13 +104,12 @@ private:
         } else {
             record.kind = BOXWOOD_SPOT_LIGHT;
             const double inner = light.inner_cone, outer = light.outer_cone;
-            // Differences of cosines, without cancellation.
+            // 1 - cos and differences of cosines, without cancellation.
             const double inside = 2.0 * std::pow(std::sin(0.5 * inner), 2.0);
+            const double within = 2.0 * std::pow(std::sin(0.5 * outer), 2.0);
             const double fading = 2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner));
-            // Of a cone thinner than the spacing of cosines in float there is nothing left but its axis.
-            const double scale = std::min(1.0 / fading, 0x1p24);
-            record.cone_scale = static_cast<float>(scale);
-            record.cone_offset = static_cast<float>(-std::cos(outer) * scale);
+            record.cone_scale = static_cast<float>(1.0 / std::sqrt(within));
+            record.cone_edge = static_cast<float>(within / fading);
             share = 2.0 * pi * (inside + fading / 3.0);
         }
         records_.push_back(record);
@@ -127,7 +126,7 @@ private:
         const double area = 0.5 * glm::length(glm::cross(along[0], along[1]));
         const glm::dvec3 normal = normal_to_world * glm::cross(edges[0], edges[1]);
         const double length = glm::length(normal);
-        if (!std::isnormal(static_cast<float>(area)) || !(length > 0.0)) return;
+        if (!(area > 0.0) || !(length > 0.0)) return;
 
         const std::uint32_t index = material_of(scene_, mesh, triangle);
         const Material material = index < scene_.materials.size() ? scene_.materials[index] : plain_material();
@@ -139,7 +138,7 @@ private:
         store(along[0], record.edges[0]);
         store(along[1], record.edges[1]);
         record.range = std::numeric_limits<float>::infinity();
-        record.area = static_cast<float>(area);
+        record.inverse_size = static_cast<float>(1.0 / std::sqrt(area));
         const glm::dvec3 largest = glm::max(glm::abs(vertex[0]), glm::max(glm::abs(vertex[1]), glm::abs(vertex[2])));
         record.clearance = static_cast<float>(clearance(to_world, largest, normal / length));
         record.instance = instance;

@@ -22,7 +22,7 @@ struct LightList {
 std::uint64_t light_limit(const Scene& scene, const ShadingRequirements& requirements);
 
 /// `emission` has the mean radiance of each material, textures included, the plain one last. A triangle is left out when that is
-/// zero, or when its area in world space is zero or beyond float. The power of a light is what it gives off (pi times
+/// zero, or when its area in world space is zero. The power of a light is what it gives off (pi times
 /// radiance times area, from both sides when double-sided; intensity over all directions), of a directional one what passes
 /// through a disc as large as the scene. Where no light has any power all are chosen alike. In double. O(size of the scene).
 LightList light_list(const Scene& scene, const ShadingRequirements& requirements,

@@ -54,7 +54,7 @@ TEST_CASE("emitting triangles are lights in world space, of instances that mirro
             v[k] = glm::dvec3(to_world * glm::dvec4(glm::dvec3(scene.meshes[0].positions[t[k]]), 1));
         const double a = glm::distance(v[0], v[1]), b = glm::distance(v[1], v[2]), c = glm::distance(v[2], v[0]);
         const double s = 0.5 * (a + b + c), area = std::sqrt(s * (s - a) * (s - b) * (s - c));
-        CHECK(light.area == doctest::Approx(area).epsilon(1e-6));
+        CHECK(light.inverse_size == doctest::Approx(1 / std::sqrt(area)).epsilon(1e-6));
         const glm::dvec3 normal(light.direction[0], light.direction[1], light.direction[2]);
         CHECK(glm::length(normal) == doctest::Approx(1.0).epsilon(1e-6));
         CHECK(std::abs(glm::dot(normal, v[1] - v[0])) < 1e-6 * a);
@@ -92,15 +92,17 @@ TEST_CASE(
     CHECK(lights[2].primitive == 0);
     CHECK(lights[2].two_sided == 1);
     // Full at the inner cone, none at the outer one.
-    CHECK(std::cos(0.2) * lights[1].cone_scale + lights[1].cone_offset == doctest::Approx(1.0).epsilon(1e-5));
-    CHECK(std::abs(std::cos(0.6) * lights[1].cone_scale + lights[1].cone_offset) < 1e-5);
+    const auto ramp = [&](double angle) {
+        return (1 - std::pow(lights[1].cone_scale, 2) * (1 - std::cos(angle))) * lights[1].cone_edge;
+    };
+    CHECK(ramp(0.2) == doctest::Approx(1.0).epsilon(1e-5));
+    CHECK(std::abs(ramp(0.6)) < 1e-5);
 
     double sent = 0; // by the spot: a sum over the angle from its axis
     const int steps = 100000;
     for (int i = 0; i < steps; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / steps;
-        const double ramp = (std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
-        const double fade = std::clamp(ramp, 0.0, 1.0);
+        const double fade = std::clamp((std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6)), 0.0, 1.0);
         sent += 2 * std::numbers::pi * std::sin(angle) * 2 * fade * fade * std::numbers::pi / steps;
     }
     const std::vector<double> powers = {std::numbers::pi * 0.5, sent, std::numbers::pi * 0.5 * 2};

@@ -51,8 +51,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         OFFSET(TextureRecord, height), OFFSET(TextureRecord, levels), OFFSET(TextureRecord, wrap_u),
         OFFSET(TextureRecord, wrap_v), OFFSET(TextureRecord, nearest), OFFSET(TextureRecord, srgb),
         sizeof(LightRecord), OFFSET(LightRecord, position), OFFSET(LightRecord, kind), OFFSET(LightRecord, direction),
-        OFFSET(LightRecord, range), OFFSET(LightRecord, intensity), OFFSET(LightRecord, area),
-        OFFSET(LightRecord, edges), OFFSET(LightRecord, cone_scale), OFFSET(LightRecord, cone_offset),
+        OFFSET(LightRecord, range), OFFSET(LightRecord, intensity), OFFSET(LightRecord, inverse_size),
+        OFFSET(LightRecord, edges), OFFSET(LightRecord, cone_scale), OFFSET(LightRecord, cone_edge),
         OFFSET(LightRecord, instance), OFFSET(LightRecord, primitive), OFFSET(LightRecord, two_sided)};
     const uint count = sizeof(values) / sizeof(uint);
     out[0] = count;

@@ -58,8 +58,8 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(TextureRecord, wrap_u), offsetof(TextureRecord, wrap_v), offsetof(TextureRecord, nearest),
         offsetof(TextureRecord, srgb), sizeof(LightRecord), offsetof(LightRecord, position),
         offsetof(LightRecord, kind), offsetof(LightRecord, direction), offsetof(LightRecord, range),
-        offsetof(LightRecord, intensity), offsetof(LightRecord, area), offsetof(LightRecord, edges),
-        offsetof(LightRecord, cone_scale), offsetof(LightRecord, cone_offset), offsetof(LightRecord, instance),
+        offsetof(LightRecord, intensity), offsetof(LightRecord, inverse_size), offsetof(LightRecord, edges),
+        offsetof(LightRecord, cone_scale), offsetof(LightRecord, cone_edge), offsetof(LightRecord, instance),
         offsetof(LightRecord, primitive), offsetof(LightRecord, two_sided)};
     // clang-format on
     Guarded<std::uint32_t> out(test_device(), 1 + expected.size());

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// compile: LANES=1
+// compile: LANES=8
+#define MATERIALS 0
+#define NORMALS 0
+#define TANGENTS 0
+#define UV_SETS 0
+#define COLORS 0
+#define TEXTURES 0
+#define ALPHA 0
+#define EMISSION 1
+#include "bounds/lanes_of.h"
+#include "render/lights.h"
+
+/// For points in space and what chooses light and place (6 components) a LightSample (11), and for the place that a ray met (an
+/// instance, a primitive, distance and cosine: 4) its density. Component k of record i is at k * count + i, count a multiple of
+/// LANES.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void lights_test(
+    global const LightRecord* records, global const float* distribution, uint lights, global const float* points,
+    global const float* places, uint count, global float* samples, global float* densities) {
+    const uint at = (uint)get_global_id(0) * LANES;
+    if (at >= count) return;
+    const LightArrays arrays = {records, distribution, lights};
+    const SceneArrays scene = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    real p[6], q[4];
+    load_components(points, count, at, p, 6);
+    const Vector origin = {p[0], p[1], p[2]};
+    LightSample s;
+    sample_light(&scene, &arrays, &origin, p[3], p[4], p[5], 0.5f, &s);
+    const real found[11] = {s.segment.x, s.segment.y, s.segment.z, s.t_max, s.direction.x, s.direction.y, s.direction.z,
+                            s.value.x, s.value.y, s.value.z, s.pdf};
+    store_components(found, samples, count, at, 11);
+    load_components(places, count, at, q, 4);
+    uint instance[LANES], primitive[LANES];
+    STORE_LANES(TO_WHOLE(q[0]), instance);
+    STORE_LANES(TO_WHOLE(q[1]), primitive);
+    const real density[1] = {triangle_pdf(&arrays, instance, primitive, q[2], q[3])};
+    store_components(density, densities, count, at, 1);
+}
