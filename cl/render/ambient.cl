@@ -83,7 +83,7 @@ INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* c
 #if LIGHTS
 /// Shadow rays towards punctual lights chosen by power, and what arrives along them when they are free. Returns where there are
 /// any.
-INLINE mask punctual_light(global const LightRecord* lights, global const float* distribution, uint count,
+INLINE mask find_light(global const LightRecord* lights, global const float* distribution, uint count,
                            const Vertex* vertex, real choice, Rays* rays, Vector* light) {
     // Triangles that emit come behind, and have the rest of the distribution.
     const float all = distribution[count];
@@ -141,7 +141,7 @@ INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* ligh
 #if LIGHTS
         real choice, unused;
         sample_square(&sampler, (whole)(dimension + 1), &choice, &unused);
-        lit = reflects & punctual_light(lights, light_distribution, light_count, &vertex, choice, &result->shadow_rays,
+        lit = reflects & find_light(lights, light_distribution, light_count, &vertex, choice, &result->shadow_rays,
                                         &result->light);
         multiply3(&result->throughput, &result->light, &result->light);
 #else

@@ -63,20 +63,13 @@ INLINE void load_lights(global const LightRecord* records, const uint* index, Li
     *light = loaded;
 }
 
-/// A difference of products to two roundings of itself, however much they cancel (Jeannerod et al. 2013).
-INLINE real products_difference(real a, real b, real c, real d) {
-    const real second = c * d;
-    return fma(a, b, -second) + fma(-c, d, second);
-}
-
 /// The part of a spot's intensity that goes along `direction`, which is `v` normalised. As KHR_lights_punctual has it, but by
 /// 1 - cosine = sine^2 / (1 + cosine), `square` being that of v.
 INLINE real spot_edge(const Light* light, const Vector* v, real square, const Vector* direction) {
-    const Vector* axis = &light->axis;
-    const Vector sine = {products_difference(axis->y, v->z, axis->z, v->y) * light->cone_scale,
-                         products_difference(axis->z, v->x, axis->x, v->z) * light->cone_scale,
-                         products_difference(axis->x, v->y, axis->y, v->x) * light->cone_scale};
-    const real cosine = -dot3(direction, axis);
+    Vector sine;
+    exact_cross3(&light->axis, v, &sine);
+    scale3(light->cone_scale, &sine);
+    const real cosine = -dot3(direction, &light->axis);
     const real off = dot3(&sine, &sine) / (square * (1.0f + cosine));
     const real edge = LESSER((1.0f - off) * light->cone_edge, (real)(1.0f));
     return CHOOSE((cosine > 0.0f) & (edge > 0.0f), edge * edge, (real)(0.0f));

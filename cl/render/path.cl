@@ -46,6 +46,7 @@ INLINE void find_beam(global const CameraRecord* camera, const PathSettings* set
 #endif
 }
 
+#if ALPHA
 /// Paths that pass a surface because of its alpha go on behind it.
 INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_before, real t, Paths* paths, Rays* rays) {
     choose3(passes, &before->throughput, &paths->throughput);
@@ -59,6 +60,7 @@ INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_bef
     rays->t_min = CHOOSE(passes, t, rays->t_min);
     rays->t_max = CHOOSE(passes, rays_before->t_max, rays->t_max);
 }
+#endif
 
 /// Follows paths at the surfaces on which the lanes of `met` are. Returns which go on, with `paths` and `rays` as they then are.
 INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,

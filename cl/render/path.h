@@ -8,17 +8,13 @@
 #ifndef BOXWOOD_RENDER_PATH_H
 #define BOXWOOD_RENDER_PATH_H
 #include "render/environment.h"
+#include "render/lights.h"
 #include "render/sampler.h"
 #include "render/vertex.h"
 #include "shared/path.h"
 
 #if !defined(STRATEGY) || !defined(LIGHTS) || !defined(EMISSION)
 #error "define STRATEGY (0 both, 1 lights, 2 surface), LIGHTS and EMISSION (0 or 1)"
-#endif
-#if LIGHTS
-#include "render/lights.h"
-#else
-#include "shared/light.h"
 #endif
 
 // Whether the environment is sampled towards, and whether anything is.

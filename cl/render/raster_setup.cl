@@ -8,6 +8,7 @@
 // compile: FLATTENED=1
 #include "primitives/segments.h"
 #include "render/raster.h"
+#include "shared/instance.h"
 
 #if !defined(FLATTENED) || !defined(GROUP_SIZE)
 #error "define FLATTENED (0 or 1) and GROUP_SIZE"
