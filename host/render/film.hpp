@@ -34,17 +34,20 @@ struct FilmSample {
     std::uint32_t count = 0;
 };
 
+/// Floats in the film of a picture: those of its pixels, in whole blocks of 8.
+std::uint64_t film_size(FilmParts parts, std::uint64_t pixels);
+
 /// A film without samples. Throws CapacityError.
 Buffer<float> make_film(Device& device, FilmParts parts, std::size_t pixels);
 
 /// Adds a sample to its pixels.
 void add_sample(Device& device, FilmParts parts, const FilmSample& sample, BufferView<float> film);
 
-/// The means of a film that was downloaded, 0 for a pixel without samples, as planes in the order of the sums.
-std::vector<std::vector<float>> film_means(FilmParts parts, const std::vector<float>& film);
+/// The means of a film of `pixels` pixels that was downloaded, 0 for a pixel without samples, as planes in the order of the sums.
+std::vector<std::vector<float>> film_means(FilmParts parts, std::size_t pixels, const std::vector<float>& film);
 /// Variance of the mean of the luminance; infinity for fewer than two samples.
-std::vector<float> film_variance(FilmParts parts, const std::vector<float>& film);
+std::vector<float> film_variance(FilmParts parts, std::size_t pixels, const std::vector<float>& film);
 /// Samples in each pixel.
-std::vector<std::uint32_t> film_samples(FilmParts parts, const std::vector<float>& film);
+std::vector<std::uint32_t> film_samples(FilmParts parts, std::size_t pixels, const std::vector<float>& film);
 
 } // namespace boxwood

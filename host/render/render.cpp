@@ -64,8 +64,8 @@ void add_light_channel(Aov aov, FilmParts parts, const std::vector<float>& film,
     if (aov == Aov::indirect) add_color("indirect.", &means[3], image);
     if (aov == Aov::ambient) add_color("ambient.", &means[6], image);
     if (aov == Aov::ao) image.channels.push_back({"ao.A", means.back()});
-    if (aov == Aov::variance) image.channels.push_back({"variance.Y", film_variance(parts, film)});
-    if (aov == Aov::samples) image.channels.push_back({"samples.N", film_samples(parts, film)});
+    if (aov == Aov::variance) image.channels.push_back({"variance.Y", film_variance(parts, means[0].size(), film)});
+    if (aov == Aov::samples) image.channels.push_back({"samples.N", film_samples(parts, means[0].size(), film)});
 }
 
 void add_attributes(const RenderOptions& options, const Camera& camera, std::uint32_t samples, Image& image) {
@@ -170,7 +170,7 @@ Image Render::image() const {
     Image image{state.options.width, state.options.height, {}};
     {
         const std::vector<float> film = download(state.device, state.film);
-        const std::vector<std::vector<float>> means = film_means(state.parts, film);
+        const std::vector<std::vector<float>> means = film_means(state.parts, state.pixels(), film);
         add_color("", beauty_of(state.parts, means).data(), image);
         for (const Aov aov : state.aovs) add_light_channel(aov, state.parts, film, means, image);
     }
@@ -182,7 +182,7 @@ Image Render::image() const {
 std::uint64_t Render::rejected_samples() const {
     const std::vector<float> film = download(state_->device, state_->film);
     std::uint64_t kept = 0;
-    for (const std::uint32_t count : film_samples(state_->parts, film)) kept += count;
+    for (const std::uint32_t count : film_samples(state_->parts, state_->pixels(), film)) kept += count;
     return std::uint64_t{state_->pixels()} * state_->samples - kept;
 }
 

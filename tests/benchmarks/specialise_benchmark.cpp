@@ -83,7 +83,7 @@ public:
     }
     double mean_light() const {
         double sum = 0.0;
-        for (const auto& plane : film_means(parts_, download(device_, film_)))
+        for (const auto& plane : film_means(parts_, width * height, download(device_, film_)))
             for (const float value : plane) sum += double{value};
         return sum / (3.0 * width * height);
     }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "boxwood/error.hpp"
 #include "render/film.hpp"
+#include "runtime/launch.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -77,8 +80,8 @@ TEST_CASE("film: means, variance and counts are those of double precision") {
         }
     }
     const std::vector<float> values = film.values();
-    const auto means = film_means(parts, values);
-    const auto variance = film_variance(parts, values);
+    const auto means = film_means(parts, film.pixels, values);
+    const auto variance = film_variance(parts, film.pixels, values);
     REQUIRE(means.size() == 10);
     for (std::uint32_t i = 0; i < pixels; ++i) {
         for (std::size_t k = 0; k < 10; ++k)
@@ -87,7 +90,7 @@ TEST_CASE("film: means, variance and counts are those of double precision") {
         for (const double value : y[i]) mean += value / samples;
         for (const double value : y[i]) squares += (value - mean) * (value - mean);
         CHECK(std::abs(variance[i] - squares / (samples - 1) / samples) <= 1e-5 * squares);
-        CHECK(film_samples(parts, values)[i] == samples);
+        CHECK(film_samples(parts, film.pixels, values)[i] == samples);
     }
 }
 
@@ -101,11 +104,11 @@ TEST_CASE("film: many samples of one brightness lose no digits, and their varian
         film.add({0.1f, 0.1f, 0.1f, around, around, around});
     }
     const std::vector<float> values = film.values();
-    const auto means = film_means(whole, values);
+    const auto means = film_means(whole, film.pixels, values);
     CHECK(means[0][0] == 0.1f);
-    CHECK(film_variance(whole, values)[0] < 1e-12f);
+    CHECK(film_variance(whole, film.pixels, values)[0] < 1e-12f);
     const double expected = 0x1p-12 / (samples - 1);
-    CHECK(std::abs(film_variance(whole, values)[1] - expected) < 0.02 * expected);
+    CHECK(std::abs(film_variance(whole, film.pixels, values)[1] - expected) < 0.02 * expected);
 }
 
 TEST_CASE("film: what is no light never enters") {
@@ -123,21 +126,56 @@ TEST_CASE("film: what is no light never enters") {
     const std::vector<float> values = film.values();
     for (const float value : values) CHECK(std::isfinite(value));
     // The first sample, and two of three others.
-    for (const std::uint32_t count : film_samples(whole, values)) CHECK(count == 3);
+    for (const std::uint32_t count : film_samples(whole, film.pixels, values)) CHECK(count == 3);
 
     TestFilm shares(parts, 2);
     shares.add(std::vector<float>(18, 1.0f), {nan, 0.5f});
-    CHECK(film_samples(parts, shares.values()) == std::vector<std::uint32_t>{0, 1});
-    CHECK(film_means(parts, shares.values())[0] == std::vector<float>{0.0f, 1.0f});
-    CHECK(film_variance(parts, shares.values())[1] == inf);
+    CHECK(film_samples(parts, shares.pixels, shares.values()) == std::vector<std::uint32_t>{0, 1});
+    CHECK(film_means(parts, shares.pixels, shares.values())[0] == std::vector<float>{0.0f, 1.0f});
+    CHECK(film_variance(parts, shares.pixels, shares.values())[1] == inf);
 }
 
 TEST_CASE("film: a batch adds to its own pixels") {
     TestFilm film(whole, 7);
     film.add({1, 2, 3, 4, 5, 6}, {}, 4);
-    const auto means = film_means(whole, film.values());
+    const auto means = film_means(whole, film.pixels, film.values());
     CHECK(means[0] == std::vector<float>{0, 0, 0, 0, 1, 4, 0});
     CHECK(means[2] == std::vector<float>{0, 0, 0, 0, 3, 6, 0});
+}
+
+TEST_CASE("film: one pixel at a time and eight give the same bytes, wherever a batch begins") {
+    constexpr std::uint32_t pixels = 43; // blocks of 8, the last one not full
+    struct Batch {
+        std::uint32_t first, count;
+    };
+    constexpr Batch batches[] = {{0, pixels}, {3, 2}, {5, 11}, {16, 8}, {39, 4}};
+    Device& device = test_device();
+    Random random(2);
+    std::vector<float> light(3 * pixels), ao(pixels);
+    for (float& value : light) value = random.uniform(0.0f, 8.0f);
+    for (float& value : ao) value = random.uniform(0.0f, 1.0f);
+    light[3 * 10] = -1.0f; // of each batch's pixel 10
+    const auto samples = upload(device, light, "light"), shares = upload(device, ao, "ao");
+    std::vector<std::uint32_t> expected(pixels);
+    for (const Batch& batch : batches)
+        for (std::uint32_t i = 0; i < batch.count; ++i) expected[batch.first + i] += i == 10 ? 0 : 1;
+
+    for (const FilmParts what : {whole, FilmParts{2, false}, parts}) {
+        std::vector<std::vector<float>> films;
+        for (const std::uint32_t lanes : {1u, 8u}) {
+            TestFilm film(what, pixels);
+            const Defines defines{
+                {"LIGHTS", std::to_string(what.lights)}, {"AO", what.ao ? "1" : "0"}, {"LANES", std::to_string(lanes)}};
+            for (const Batch& batch : batches) {
+                const Slices slices = cut(device, batch.count + batch.first % lanes, lanes);
+                launch(device, {"render/film.cl", "film_add", defines}, "film add", slices.slices, samples, samples,
+                       samples, shares, batch.first, batch.count, slices.length, film.film);
+            }
+            films.push_back(film.values());
+            CHECK(film_samples(what, pixels, films.back()) == expected);
+        }
+        CHECK(films[0] == films[1]);
+    }
 }
 
 TEST_CASE("film: what does not fit is refused before it is made") {
