@@ -21,8 +21,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void add_unblocke
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        if (lights[i].pixel != BOXWOOD_NONE && blocked[i] == 0)
-            add_shadow_light(lights + i, direct, indirect);
+        if (blocked[i] == 0 && lights[i].pixel != BOXWOOD_NONE) add_shadow_light(lights + i, direct, indirect);
     }
 }
 
@@ -34,8 +33,12 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void move_kept(
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const size_t from = (size_t)slice * length, to = before[slice];
-    for (size_t i = 0; i < kept[slice]; ++i) {
-        out_rays[to + i] = rays[from + i];
-        out_records[to + i] = records[from + i];
+    const uint count = kept[slice];
+    for (size_t i = 0; i < count; ++i) {
+        vstore8(vload8(from + i, (global const uint*)rays), to + i, (global uint*)out_rays);
+        if (sizeof(RECORD) == 32)
+            vstore8(vload8(from + i, (global const uint*)records), to + i, (global uint*)out_records);
+        else
+            vstore4(vload4(from + i, (global const uint*)records), to + i, (global uint*)out_records);
     }
 }
