@@ -28,8 +28,11 @@ typedef struct Triangles {
     uint corner[3][LANES];            ///< Vertices.
     Vector first, edge1, edge2;       ///< Object space.
     Vector largest;                   ///< The largest magnitudes of the vertices.
-    real to_object[12], to_world[12]; ///< Of the instance.
+    real placement[24];               ///< Of the instance: to_object, then to_world.
 } Triangles;
+
+#define TO_OBJECT(triangles) ((triangles)->placement)
+#define TO_WORLD(triangles) ((triangles)->placement + 12)
 
 /// Hit points in world space, one per lane.
 typedef struct Surface {
@@ -41,7 +44,7 @@ typedef struct Surface {
 
 /// The `used` elements from `first` on, one per lane; the lanes behind repeat the last one.
 INLINE void lane_indices(uint first, uint used, uint* index) {
-    for (uint lane = 0; lane < LANES; ++lane) index[lane] = first + min(lane, used - 1);
+    FOR_LANES(lane) index[lane] = first + min(lane, used - 1);
 }
 
 INLINE void load_rays(global const Ray* from, const uint* index, Rays* rays) {
@@ -75,21 +78,24 @@ INLINE void load_hits(global const Hit* from, const uint* index, Hits* hits) {
     hits->u = row[1];
     hits->v = row[2];
     hits->some = AS_INT(row[3]) != (int)BOXWOOD_NONE;
-    global const Hit* stand_in = from + index[0];
-    for (uint lane = 1; lane < LANES; ++lane)
-        if (stand_in->primitive == BOXWOOD_NONE) stand_in = from + index[lane];
-    for (uint lane = 0; lane < LANES; ++lane) {
-        global const Hit* hit = from + index[lane];
-        hit = hit->primitive == BOXWOOD_NONE ? stand_in : hit;
-        hits->primitive[lane] = hit->primitive;
-        hits->instance[lane] = hit->instance;
+    FOR_LANES(lane) {
+        hits->primitive[lane] = from[index[lane]].primitive;
+        hits->instance[lane] = from[index[lane]].instance;
+    }
+    if (!ANY(NOT(hits->some))) return;
+    uint stand_in = index[0];
+    for (uint lane = 1; lane < LANES && from[stand_in].primitive == BOXWOOD_NONE; ++lane) stand_in = index[lane];
+    FOR_LANES(lane) {
+        if (hits->primitive[lane] != BOXWOOD_NONE) continue;
+        hits->primitive[lane] = from[stand_in].primitive;
+        hits->instance[lane] = from[stand_in].instance;
     }
 }
 
 /// The triangles of `hits`, of which at least one is one. The arrays are those of a Geometry.
 INLINE void load_triangles(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
                            global const InstanceRecord* instances, const Hits* hits, Triangles* result) {
-    for (uint lane = 0; lane < LANES; ++lane) {
+    FOR_LANES(lane) {
         result->number[lane] = meshes[instances[hits->instance[lane]].mesh].first_triangle + hits->primitive[lane];
         const uint3 corner = vload3(result->number[lane], triangles);
         result->corner[0][lane] = corner.x;
@@ -106,13 +112,10 @@ INLINE void load_triangles(global const float* positions, global const uint* tri
     result->largest.y = larger(larger(fabs(result->first.y), fabs(second.y)), fabs(third.y));
     result->largest.z = larger(larger(fabs(result->first.z), fabs(second.z)), fabs(third.z));
 
-    real rows[24];
-    for (uint part = 0; part < 3; ++part)
-        load_rows8(instances->to_object + 8 * part, sizeof(InstanceRecord) / sizeof(float), hits->instance, rows + 8 * part);
-    for (uint k = 0; k < 12; ++k) {
-        result->to_object[k] = rows[k];
-        result->to_world[k] = rows[12 + k];
-    }
+    const uint stride = sizeof(InstanceRecord) / sizeof(float);
+    load_rows8(instances->to_object, stride, hits->instance, result->placement);
+    load_rows8(instances->to_object + 8, stride, hits->instance, result->placement + 8);
+    load_rows8(instances->to_object + 16, stride, hits->instance, result->placement + 16);
 }
 
 /// rows (3 x 4, affine) applied to a vector.
@@ -167,9 +170,9 @@ INLINE void bound_point(const real* rows, const Vector* magnitude, Vector* resul
 /// Scales with the scene.
 INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) {
     Vector world, there, back;
-    bound_point(triangles->to_world, &triangles->largest, &world);
-    bound_point(triangles->to_object, &world, &there);
-    bound_vector(triangles->to_world, &there, &back);
+    bound_point(TO_WORLD(triangles), &triangles->largest, &world);
+    bound_point(TO_OBJECT(triangles), &world, &there);
+    bound_vector(TO_WORLD(triangles), &there, &back);
     scale3((real)(5.0f), &back);
     add_scaled3((real)(32.0f), &world, &back);
     return 0x1p-24f * reach3(normal, &back);
@@ -182,7 +185,7 @@ INLINE void find_surface(const Triangles* triangles, const Vector* direction, co
     scale_to_one3(&edge2);
     exact_cross3(&edge1, &edge2, &object);
     // A normal goes to world space by the inverse transpose.
-    rotate_columns(triangles->to_object, &object, &surface->normal);
+    rotate_columns(TO_OBJECT(triangles), &object, &surface->normal);
     normalise_any3(&surface->normal);
     surface->clearance = surface_clearance(triangles, &surface->normal);
     const mask back = dot3(&surface->normal, direction) > 0.0f;
@@ -192,7 +195,7 @@ INLINE void find_surface(const Triangles* triangles, const Vector* direction, co
     Vector point = triangles->first;
     add_scaled3(hits->u, &triangles->edge1, &point);
     add_scaled3(hits->v, &triangles->edge2, &point);
-    transform_point(triangles->to_world, &point, &surface->point);
+    transform_point(TO_WORLD(triangles), &point, &surface->point);
 }
 
 /// The origins of new rays on the normals' side of the surfaces.
