@@ -90,10 +90,10 @@ inline glm::dvec3 reference_bsdf(const Material& m, const glm::dvec3& n, const g
     return cos_i * glm::mix(plastic, metallic, double(m.metallic));
 }
 
-/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing and no Fresnel loss (Heitz 2014), by the
-/// midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
+/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing (Heitz 2014) and Schlick's reflectance from
+/// f0 to f90, by the midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
 /// which takes the integrand's pole at p = 1 away.
-inline double ggx_albedo(double cosine, double alpha, int across) {
+inline double ggx_albedo(double cosine, double alpha, int across, double f0 = 1.0, double f90 = 1.0) {
     const glm::dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
     const auto shadow = [&](const glm::dvec3& w) {
         return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (w.z * w.z) - 1)) - 1);
@@ -106,7 +106,9 @@ inline double ggx_albedo(double cosine, double alpha, int across) {
             const glm::dvec3 h = glm::normalize(glm::dvec3(tangent * std::cos(phi), tangent * std::sin(phi), 1.0));
             const double facing = glm::dot(o, h);
             const glm::dvec3 i = 2 * facing * h - o;
-            if (facing > 0 && i.z > 0) sum += 2 * q * facing / (o.z * h.z) / (1 + shadow(o) + shadow(i));
+            if (facing <= 0 || i.z <= 0) continue;
+            const double fresnel = f0 + (f90 - f0) * std::pow(1 - facing, 5.0);
+            sum += 2 * q * fresnel * facing / (o.z * h.z) / (1 + shadow(o) + shadow(i));
         }
     return sum / (double(across) * across);
 }
