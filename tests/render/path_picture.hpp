@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -96,20 +97,35 @@ struct Estimate {
     double mean = 0.0, error = 0.0;
 };
 
-inline Estimate estimate(Device& device, const LitScene& lit, const Camera& camera, const Frame& frame,
-                         LightOptions options, std::uint32_t repeats) {
+struct Estimates {
+    Estimate direct, indirect, light; ///< The last of their sum.
+};
+
+inline Estimate estimate_of(const std::vector<double>& values) {
     double sum = 0.0, square = 0.0;
+    for (const double value : values) sum += value;
+    const double count = double(values.size()), mean = sum / count;
+    for (const double value : values) square += (value - mean) * (value - mean);
+    return {mean, std::sqrt(square / (count * (count - 1)))};
+}
+
+inline Estimates estimates(Device& device, const LitScene& lit, const Camera& camera, const Frame& frame,
+                           LightOptions options, std::uint32_t repeats) {
+    std::vector<double> direct(repeats), indirect(repeats), light(repeats);
     for (std::uint32_t r = 0; r < repeats; ++r) {
         const Picture picture = take_picture(device, lit, camera, frame, options);
-        double mean = 0.0;
-        for (std::size_t i = 0; i < picture.direct.size(); ++i)
-            mean += picture.light(i) / double(picture.direct.size());
-        sum += mean;
-        square += mean * mean;
+        const double count = double(picture.direct.size());
+        direct[r] = std::accumulate(picture.direct.begin(), picture.direct.end(), 0.0) / count;
+        indirect[r] = std::accumulate(picture.indirect.begin(), picture.indirect.end(), 0.0) / count;
+        light[r] = direct[r] + indirect[r];
         ++options.seed;
     }
-    const double mean = sum / repeats;
-    return {mean, std::sqrt(std::max(square / repeats - mean * mean, 0.0) / (repeats - 1))};
+    return {estimate_of(direct), estimate_of(indirect), estimate_of(light)};
+}
+
+inline Estimate estimate(Device& device, const LitScene& lit, const Camera& camera, const Frame& frame,
+                         const LightOptions& options, std::uint32_t repeats) {
+    return estimates(device, lit, camera, frame, options, repeats).light;
 }
 
 } // namespace boxwood::test

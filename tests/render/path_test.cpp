@@ -225,6 +225,7 @@ TEST_CASE("path: a closed white room returns what its lamp gives, bounce by boun
         options.seed = test_seed();
         const Estimate found = estimate(test_device(), lit, camera, {across(16), across(16)}, options, 6);
         CHECK(std::abs(found.mean - (2.0 - std::exp2(-double(depth)))) < 3 * found.error + 1e-3);
+        CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
         options.strategy = Strategy::bsdf;
         const Picture picture = take_picture(test_device(), lit, camera, {8, 8}, options);
         // Without a light to sample every path brings the same, but for roulette from the third bounce on.
@@ -282,4 +283,5 @@ TEST_CASE("path: seen through what lets light pass") {
     options.seed = test_seed();
     const Estimate found = estimate(test_device(), lit, camera_above(1.0f), {across(16), across(16)}, options, 8);
     CHECK(std::abs(found.mean - 1.25) < 3 * found.error + 1e-3);
+    CHECK(found.error < (small_sizes() ? 0.1 : 5e-3));
 }
