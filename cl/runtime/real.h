@@ -168,6 +168,11 @@ INLINE void store_rows4(real* v, global float* base, uint stride, const uint* in
 /// `yes` in the lanes where `condition`, a comparison, holds; else `no`.
 #define CHOOSE(condition, yes, no) select((no), (yes), (condition))
 #define CHOOSE_INT(condition, yes, no) select((mask)(no), (mask)(yes), (condition))
+#if LANES == 8
+// By select(): of == compilers make the exclusive or of a vector of bits, which Oclgrind 21.10 takes for true in every lane.
+#define NOT(condition) select((mask)(-1), (mask)(0), (condition))
+#else
 #define NOT(condition) ((condition) == 0)
+#endif
 
 #endif
