@@ -29,23 +29,6 @@ LightOptions seeded(std::uint32_t samples, std::uint32_t depth) {
 
 bool same(const Picture& a, const Picture& b) { return a.direct == b.direct && a.indirect == b.indirect; }
 
-/// The scene, its lights and its camera times `scale`, a power of two.
-Scene scaled(Scene scene, float scale) {
-    for (Mesh& mesh : scene.meshes)
-        for (glm::vec3& p : mesh.positions) p *= scale;
-    for (Instance& instance : scene.instances) instance.transform[3] *= glm::vec4(scale, scale, scale, 1.0f);
-    for (Light& light : scene.lights) {
-        light.position *= scale;
-        light.range *= scale;
-        if (light.kind != LightKind::directional) light.intensity *= scale * scale;
-    }
-    for (Camera& camera : scene.cameras) {
-        camera.to_world[3] *= glm::vec4(scale, scale, scale, 1.0f);
-        camera.half_height *= scale;
-    }
-    return scene;
-}
-
 /// Means agree to four standard errors of some ten pictures, which are at most `share` of them. Under a checker there are too
 /// few paths for that.
 void check_agree(const Estimate& a, const Estimate& b, double share) {

@@ -51,6 +51,23 @@ inline void add_floor(Scene& scene, const Material& material) {
     add_quad(scene, {-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, material);
 }
 
+/// The scene, its lights and its camera times `scale`, a power of two.
+inline Scene scaled(Scene scene, float scale) {
+    for (Mesh& mesh : scene.meshes)
+        for (glm::vec3& p : mesh.positions) p *= scale;
+    for (Instance& instance : scene.instances) instance.transform[3] *= glm::vec4(scale, scale, scale, 1.0f);
+    for (Light& light : scene.lights) {
+        light.position *= scale;
+        light.range *= scale;
+        if (light.kind != LightKind::directional) light.intensity *= scale * scale;
+    }
+    for (Camera& camera : scene.cameras) {
+        camera.to_world[3] *= glm::vec4(scale, scale, scale, 1.0f);
+        camera.half_height *= scale;
+    }
+    return scene;
+}
+
 /// Looks along -y at [-half, half]^2 of the floor.
 inline Camera camera_above(float half, float height = 2.0f) {
     return {"above", look_at({0, height, 0}, {0, 0, 0}, {0, 0, -1}), false, 0.8f, half};
