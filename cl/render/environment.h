@@ -7,6 +7,7 @@
 #ifndef BOXWOOD_RENDER_ENVIRONMENT_H
 #define BOXWOOD_RENDER_ENVIRONMENT_H
 #include "render/search.h"
+#include "render/turn.h"
 #include "runtime/vector.h"
 #include "shared/environment.h"
 
@@ -105,7 +106,9 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
 #if ENVIRONMENT == 1
     const real z = 1.0f - 2.0f * v;
     const real radius = sqrt(GREATER(1.0f - z * z, (real)(0.0f)));
-    const Vector d = {radius * cospi(2.0f * u), radius * sinpi(2.0f * u), z};
+    real sine, cosine;
+    sincos_turn(u, &sine, &cosine);
+    const Vector d = {radius * cosine, radius * sine, z};
     const real sign = CHOOSE(dot3(&d, normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
     *direction = d;
     scale3(sign, direction);
@@ -120,9 +123,11 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     choose(environment->columns, width, row, &u, column, &of_column);
     (void)normal;
     const real x = TO_REAL(LOAD_LANES(column)) + u, y = TO_REAL(LOAD_LANES(row)) + v;
-    const real polar = y / (float)height, turn = 2.0f * (x / (float)width) - 1.0f;
-    const real sine = sinpi(polar);
-    const Vector d = {sine * sinpi(turn), cospi(polar), -(sine * cospi(turn))};
+    real sine, cosine, sine_across, cosine_across;
+    sincos_turn(0.5f * (y / (float)height), &sine, &cosine);
+    sincos_turn(x / (float)width, &sine_across, &cosine_across);
+    // Half a turn off: the middle of the picture is -z.
+    const Vector d = {-(sine * sine_across), cosine, sine * cosine_across};
     *direction = d;
     *pdf = texel_density(environment->record, of_row * of_column, sine);
     picture_radiance(environment, x, y, radiance);

@@ -209,6 +209,49 @@ TEST_CASE("environment: a picture of ones has about the density of the sphere, t
     CHECK(ask(constant, {{0, 1, 0}}, {}).lookups[0].z == 3.0);
 }
 
+TEST_CASE("environment: light and density at the poles and beside them") {
+    const Environment e = random_environment(16, 8);
+    const EnvironmentMap map = upload_environment(test_device(), e);
+    const std::vector<float> rows = download(test_device(), map.rows), columns = download(test_device(), map.columns);
+    std::vector<glm::vec3> directions;
+    for (const float up : {1.0f, -1.0f})
+        for (const double off : {1e-3, 1e-6, 1e-9, 1e-15})
+            for (int i = 0; i < 32; ++i) {
+                const double phi = 2 * pi * (i + 0.3) / 32;
+                directions.emplace_back(off * std::sin(phi), up, off * std::cos(phi));
+            }
+    const Answers answers = ask(e, directions, {});
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const glm::dvec3 d(directions[i]);
+        CAPTURE(d.x);
+        CAPTURE(d.y);
+        const std::size_t y = d.y > 0 ? 0 : 7;
+        const double x = 8 + 8 * std::atan2(d.x, -d.z) / pi, sine = std::hypot(d.x, d.z);
+        const auto column = static_cast<std::size_t>(x), left = static_cast<std::size_t>(x + 15.5) % 16;
+        const glm::dvec3 light = glm::mix(glm::dvec3(e.pixels[16 * y + left]),
+                                          glm::dvec3(e.pixels[16 * y + (left + 1) % 16]), glm::fract(x - 0.5));
+        CHECK(glm::distance(glm::dvec3(answers.lookups[i]), light) <= 1e-5 * glm::length(light) + 1e-5);
+        const double probability = (rows[y + 1] - rows[y]) * (columns[17 * y + column + 1] - columns[17 * y + column]);
+        CHECK(answers.lookups[i].w == doctest::Approx(probability * 128 / (2 * pi * pi * sine)).epsilon(1e-6));
+    }
+    // There the density has no end, and no direction is drawn; numbers stay finite, as they do for what is no direction.
+    const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+    const std::vector<glm::vec3> odd = {{0, 1, 0}, {0, -1, 0},      {-0.0f, 1, -0.0f},       {1e-30f, -1, 1e-30f},
+                                        {0, 0, 0}, {nan, nan, nan}, {infinity, 0, -infinity}};
+    const std::vector<glm::vec2> ends = {{0, 0}, {0.99999994f, 0}, {0, 0.99999994f}, {0.99999994f, 0.99999994f}};
+    const Answers finite = ask(e, odd, ends);
+    for (std::size_t i = 0; i < odd.size(); ++i) {
+        for (int k = 0; k < 3; ++k) CHECK((finite.lookups[i][k] >= 0 && finite.lookups[i][k] < 200));
+        CHECK(std::isfinite(finite.lookups[i].w));
+        if (i < 4) CHECK(finite.lookups[i].w > 1e12);
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        CHECK(glm::length(glm::dvec3(finite.drawn[i])) == doctest::Approx(1.0));
+        CHECK((finite.drawn[i].w > 0 && std::isfinite(finite.drawn[i].w)));
+        for (int k = 0; k < 3; ++k) CHECK((finite.light[i][k] >= 0 && finite.light[i][k] < 200));
+    }
+}
+
 TEST_CASE("environment: what is black is none, and sizes must agree") {
     Environment e;
     CHECK(upload_environment(test_device(), e).kind == EnvironmentKind::none);
