@@ -31,7 +31,7 @@ struct Appearance {
 /// of a triangle pi times its emission (of a texture its mean) times area, twice when double-sided; of a punctual light its
 /// intensity over all directions, of a directional one over a disc as large as the scene. 2^-4 of the choices are spread evenly
 /// over the punctual lights that give off anything, so that none is too dim beside the others to be chosen. Triangles that give
-/// off nothing, or have no area in float, are no lights. A picture that cannot be decoded, or would pass 2^28 texels, is one grey
+/// off nothing, or have no area, are no lights. A picture that cannot be decoded, or would pass 2^28 texels, is one grey
 /// texel (of a normal texture: none), and a warning is added to `warnings`. Throws InputError for more than two sets of texture
 /// coordinates, CapacityError, before anything is uploaded, when it does not fit. O(size of the scene).
 Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRequirements& requirements,
