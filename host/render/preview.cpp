@@ -19,7 +19,13 @@ template <class T>
 const std::vector<T>& channel(const Image& image, const std::string& name) {
     for (const Channel& each : image.channels)
         if (each.name == name)
-            if (const auto* samples = std::get_if<std::vector<T>>(&each.samples)) return *samples;
+            if (const auto* samples = std::get_if<std::vector<T>>(&each.samples)) {
+                const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
+                if (samples->size() == pixels) return *samples;
+                throw InputError("image", name,
+                                 "has " + std::to_string(samples->size()) + " samples for " + std::to_string(pixels) +
+                                     " pixels");
+            }
     throw InputError("image", name, "the preview needs this channel");
 }
 
@@ -104,7 +110,7 @@ std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& opti
     for (std::size_t i = 0; i < planes[0]->size(); ++i) {
         glm::dvec3 colour;
         for (int c = 0; c < 3; ++c) {
-            const double light = scale * double{planes[static_cast<std::size_t>(c)]->at(i)};
+            const double light = scale * double{(*planes[static_cast<std::size_t>(c)])[i]};
             colour[c] = light > 0.0 ? std::min(light, most) : 0.0; // NaN to 0
         }
         if (options.tone_curve) colour = neutral_curve(colour);

@@ -114,3 +114,19 @@ TEST_CASE("preview: the suitable exposure follows the light, not the darkness ar
     CHECK(suitable_exposure(grey({0.0f, 0.0f})) == 0.0f);
     CHECK_THROWS_AS(suitable_exposure(Image{}), InputError);
 }
+
+TEST_CASE("preview: a channel that is shorter or longer than the picture is refused by name") {
+    const std::vector<float> four(4, 0.5f);
+    for (const std::size_t size : {0u, 3u, 5u}) {
+        const std::vector<float> other(size, 0.5f);
+        for (std::size_t wrong = 0; wrong < 3; ++wrong) {
+            Image image{2, 2, {{"R", four}, {"G", four}, {"B", four}}};
+            image.channels[wrong].samples = other;
+            const auto names = doctest::Contains(image.channels[wrong].name.c_str());
+            CHECK_THROWS_WITH_AS(preview(image), names, InputError);
+            CHECK_THROWS_WITH_AS(suitable_exposure(image), names, InputError);
+        }
+        const Image image{2, 2, {{"cost.volumes", std::vector<std::uint32_t>(size, 1)}}};
+        CHECK_THROWS_WITH_AS(cost_preview(image), doctest::Contains("cost.volumes"), InputError);
+    }
+}
