@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -23,7 +24,7 @@ CameraRecord record_of(const Camera& camera, std::uint32_t width, std::uint32_t 
     const double half_height =
         camera.perspective ? std::tan(0.5 * static_cast<double>(camera.vertical_fov)) : double{camera.half_height};
     // Pixels are square: half a pixel is as wide as high.
-    const double half_pixel = half_height / height;
+    const double half_pixel = half_height / std::max(height, 1u);
     CameraRecord record{};
     store(glm::dvec3(to_world[3]), record.origin);
     store(-glm::normalize(glm::dvec3(to_world[2])), record.forward);
@@ -48,6 +49,9 @@ Buffer<CameraRecord> upload_camera(Device& device, const Camera& camera, std::ui
         throw InputError("camera", "resolution",
                          std::to_string(width) + " x " + std::to_string(height) +
                              " pixels; at most 2^23 across and 2^32 - 1 in all");
+    for (int i = 0; i < 2; ++i)
+        if (!(std::abs(jitter[i]) < 1.0f))
+            throw InputError("camera", "jitter", std::to_string(jitter[i]) + " is not within (-1, 1)");
     return upload(device, std::vector<CameraRecord>{record_of(camera, width, height, jitter)}, "camera");
 }
 

@@ -56,6 +56,11 @@ void g_buffer(Device& device, const Geometry& geometry, const Appearance& appear
     if (rays.size() != hits.size())
         throw InputError("g_buffer", "rays",
                          std::to_string(rays.size()) + " elements for " + std::to_string(hits.size()) + " hits");
+    const std::size_t materials = appearance.triangle_materials.size();
+    if (materials != 0 && materials != geometry.triangle_count())
+        throw InputError("g_buffer", "appearance",
+                         "is of " + std::to_string(materials) + " triangles, the geometry of " +
+                             std::to_string(geometry.triangle_count()));
     if (camera.size() != 1 || samples == 0) throw InputError("g_buffer", "camera", "needs one record and a sample");
     const unsigned bits = planes_in(planes, hits.size());
     if (bits == 0) return;

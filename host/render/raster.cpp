@@ -74,7 +74,9 @@ Rasteriser::Rasteriser(Device& device, const Scene& scene, const Tree& tree, con
 
 void Rasteriser::draw(BufferView<const CameraRecord> camera, std::uint32_t width, std::uint32_t height,
                       std::uint32_t first_pixel, BufferView<const Ray> rays, BufferView<Hit> hits) const {
-    if (rays.size() != hits.size() || first_pixel + rays.size() > std::size_t{width} * height || camera.size() != 1)
+    const std::uint64_t pixels = std::uint64_t{width} * height;
+    if (rays.size() != hits.size() || first_pixel + rays.size() > pixels || camera.size() != 1 ||
+        pixels > std::numeric_limits<std::uint32_t>::max())
         throw InputError("raster", "rays",
                          std::to_string(rays.size()) + " from pixel " + std::to_string(first_pixel) + " on, for " +
                              std::to_string(hits.size()) + " hits in " + std::to_string(width) + " x " +

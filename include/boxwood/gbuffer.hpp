@@ -29,8 +29,8 @@ struct GBuffer {
 
 /// Primary hits turned into planes (dissertation 2.6, 3.7.6), in one launch. `camera` holds one record, `rays` are its rays in
 /// some pixels and `hits` what they met in the scene of `geometry` and `appearance`; textures are filtered over a pixel, or
-/// over its share when it has several samples. Every plane has hits.size() pixels or is empty. Throws InputError when sizes
-/// differ. O(pixels).
+/// over its share when it has several samples. Every plane has hits.size() pixels or is empty; no hits are nothing to do.
+/// Throws InputError when sizes differ, when `appearance` is of other triangles, or for no samples. O(pixels).
 void g_buffer(Device& device, const Geometry& geometry, const Appearance& appearance,
               BufferView<const CameraRecord> camera, BufferView<const Ray> rays, BufferView<const Hit> hits,
               TextureFilter filter, std::uint32_t samples, const GBuffer& planes);

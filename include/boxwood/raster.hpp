@@ -24,7 +24,8 @@ public:
 
     /// hits[i] = what closest_hit says about rays[i], the ray of pixel first_pixel + i of a picture of width x height pixels
     /// through `camera` (one record, whose jitter counts). On edges, within a rounding, the triangle may be the next one.
-    /// Throws InputError for sizes that do not fit each other, and CapacityError, before any work, when scratch memory does
+    /// The record must be of such a picture, and rays of it; no rays are nothing to do. Throws InputError for sizes that do not
+    /// fit each other and pictures of 2^32 pixels and more, and CapacityError, before any work, when scratch memory does
     /// not suffice. O(placed triangles + pixels drawn).
     void draw(BufferView<const CameraRecord> camera, std::uint32_t width, std::uint32_t height,
               std::uint32_t first_pixel, BufferView<const Ray> rays, BufferView<Hit> hits) const;

@@ -13,13 +13,13 @@
 namespace boxwood {
 
 /// The record of a camera for a picture of width x height pixels, each sampled at `jitter` (see CameraRecord). Throws InputError
-/// for more than 2^23 pixels across or 2^32 - 1 in all, and for a camera that does not keep the promises of Camera: a singular or
+/// for more than 2^23 pixels across or 2^32 - 1 in all, for a jitter not within (-1, 1), and for a camera that does not keep the promises of Camera: a singular or
 /// non-finite transform, a field of view not in (0, pi), a half height that is not positive and finite.
 Buffer<CameraRecord> upload_camera(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                                    glm::vec2 jitter = glm::vec2(0.0f));
 
 /// One ray through the centre of each pixel, rows top to bottom; direction normalised, t in [0, inf). `rays` has width * height
-/// elements, both at most 2^23. Throws InputError when not, and for such a camera.
+/// elements, possibly none. Throws InputError when not, and as upload_camera does.
 void primary_rays(Device& device, const Camera& camera, std::uint32_t width, std::uint32_t height,
                   BufferView<Ray> rays);
 

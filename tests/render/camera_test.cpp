@@ -101,6 +101,16 @@ TEST_CASE("camera: one pixel looks straight ahead, no pixel gives no ray, a wron
     CHECK_THROWS_AS(primary_rays(test_device(), Camera{}, (1u << 23) + 1, 0, rays.prefix(0)), InputError);
 }
 
+TEST_CASE("camera: a sample lies inside its pixel's square, and a picture without pixels has a finite record") {
+    const float nan = std::nanf("");
+    for (const float jitter : {1.0f, -1.0f, 2.0f, nan})
+        for (const glm::vec2 at : {glm::vec2(jitter, 0.0f), glm::vec2(0.0f, jitter)})
+            CHECK_THROWS_AS(upload_camera(test_device(), Camera{}, 4, 4, at), InputError);
+    CHECK_NOTHROW(upload_camera(test_device(), Camera{}, 4, 4, glm::vec2(0x1.fffffep-1f, -0x1.fffffep-1f)));
+    const CameraRecord none = download(test_device(), upload_camera(test_device(), Camera{}, 4, 0))[0];
+    CHECK(std::isfinite(none.up[1]));
+}
+
 TEST_CASE("camera: the default camera sees all corners from outside") {
     for (const float size : {0x1p-30f, 1.0f, 0x1p40f}) {
         CAPTURE(size);

@@ -11,6 +11,7 @@
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/gbuffer.hpp"
+#include "boxwood/procedural.hpp"
 #include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
 #include "io/picture.hpp"
@@ -326,6 +327,27 @@ TEST_CASE("g-buffer: planes of another size are refused") {
     planes.depths = plane;
     CHECK_NOTHROW(run(1));
     CHECK_THROWS_AS(run(0), InputError);
+}
+
+TEST_CASE("g-buffer: no pixels are nothing to do; the geometry of another scene is refused") {
+    Random random(323);
+    Device& device = test_device();
+    const Shot shot = shoot(rich_scene(random), inside_camera(true), 4, 3);
+    const Buffer<float> plane = make_buffer<float>(device, 12, "plane");
+    fill(device, plane.view(), 7.0f);
+    GBuffer planes;
+    CHECK_NOTHROW(g_buffer(device, shot.geometry, shot.appearance, shot.record, shot.rays.prefix(0),
+                           shot.hits.prefix(0), TextureFilter::nearest, 1, planes));
+    planes.depths = plane;
+    CHECK_THROWS_AS(g_buffer(device, shot.geometry, shot.appearance, shot.record, shot.rays.prefix(0),
+                             shot.hits.prefix(0), TextureFilter::nearest, 1, planes),
+                    InputError); // twelve depths of no pixels
+    REQUIRE(shot.appearance.triangle_materials.size() > 0);
+    const Geometry other = upload(device, make_procedural("random", {5, 0, 1}));
+    CHECK_THROWS_AS(
+        g_buffer(device, other, shot.appearance, shot.record, shot.rays, shot.hits, TextureFilter::nearest, 1, planes),
+        InputError);
+    CHECK(download(device, plane) == std::vector<float>(12, 7.0f));
 }
 
 TEST_SUITE_END();

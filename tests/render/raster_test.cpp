@@ -88,6 +88,11 @@ TEST_CASE("raster: a part of a picture is that part of it, and many triangles th
     const Buffer<Ray> rays = make_buffer<Ray>(device, 2, "rays");
     const Buffer<Hit> hits = make_buffer<Hit>(device, 2, "hits");
     CHECK_THROWS_AS(rasteriser.draw(camera, width, height, width * height - 1, rays, hits), InputError);
+    CHECK_THROWS_AS(rasteriser.draw(camera, 0, height, 0, rays, hits), InputError);
+    CHECK_THROWS_AS(rasteriser.draw(camera, width, 0, 0, rays, hits), InputError);
+    CHECK_THROWS_AS(rasteriser.draw(camera, width, height, 0, rays, hits.prefix(1)), InputError);
+    CHECK_THROWS_AS(rasteriser.draw(camera, 1u << 23, 1u << 23, 0, rays, hits), InputError);
+    CHECK_NOTHROW(rasteriser.draw(camera, 0, 0, 0, rays.prefix(0), hits.prefix(0)));
 }
 
 TEST_CASE("raster: nothing to draw, and triangles that nobody sees") {
