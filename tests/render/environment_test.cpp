@@ -14,6 +14,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
 #include "boxwood/material.hpp"
+#include "io/samples.hpp"
 #include "render/environment.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
@@ -288,7 +289,8 @@ TEST_CASE("environment: what is no radiance is refused, and its pixel named") {
 }
 
 TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as the nearest, with a warning") {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "boxwood-environment-test.exr";
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "light.exr";
     Image image{3, 2, {}};
     for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>{1, 2, 3, 4, 5, 6}});
     std::get<std::vector<float>>(image.channels[1].samples)[4] = -1.0f;
