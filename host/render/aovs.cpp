@@ -151,6 +151,22 @@ bool has(Integrator integrator, Aov aov) {
     }
 }
 
+std::uint32_t channel_count(Aov aov) {
+    switch (aov) {
+    case Aov::direct:
+    case Aov::indirect:
+    case Aov::ambient:
+    case Aov::normal:
+    case Aov::position:
+    case Aov::albedo:
+        return 3;
+    case Aov::cost:
+        return 2;
+    default:
+        return 1;
+    }
+}
+
 bool is_light(Aov aov) { return aov < Aov::depth; }
 
 std::vector<Aov> without_repetition(std::vector<Aov> aovs) {

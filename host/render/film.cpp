@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "boxwood/error.hpp"
+#include "render/aovs.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
@@ -14,6 +15,13 @@ namespace {
 /// The first float of a pixel; the others follow at distances of 8.
 const float* first_float(FilmParts parts, const std::vector<float>& film, std::size_t pixel) {
     return &film[pixel / 8 * 8 * parts.floats() + pixel % 8];
+}
+
+/// Of a picture with these AOVs, beside R, G and B.
+std::uint64_t channels(const std::vector<Aov>& aovs) {
+    std::uint64_t count = 0;
+    for (const Aov aov : without_repetition(aovs)) count += channel_count(aov);
+    return count;
 }
 
 } // namespace
@@ -81,17 +89,24 @@ std::vector<std::uint32_t> film_samples(FilmParts parts, std::size_t pixels, con
     return plane;
 }
 
-void check_film(const Device& device, const RenderOptions& options) {
+void check_film(const DeviceInfo& device, const RenderOptions& options) {
+    const FilmParts parts = film_parts(options.light.integrator);
     const std::uint64_t pixels = std::uint64_t{options.width} * options.height;
-    const std::uint64_t floats = film_size(film_parts(options.light.integrator), pixels);
     constexpr std::uint64_t most_pixels = std::numeric_limits<std::int32_t>::max();
     if (pixels > most_pixels) throw CapacityError("pixels of a picture", pixels, most_pixels);
-    const std::uint64_t most = std::min({device.info().largest_buffer_bytes, device.info().global_bytes,
+    const std::string picture = std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels";
+    const std::uint64_t film = sizeof(float) * film_size(parts, pixels);
+    const std::uint64_t most = std::min({device.largest_buffer_bytes, device.global_bytes,
                                          sizeof(float) * most_pixels}); // elements are counted in 31 bits
-    if (floats * sizeof(float) > most)
-        throw CapacityError("device memory for the film of " + std::to_string(options.width) + " x " +
-                                std::to_string(options.height) + " pixels, in bytes",
-                            floats * sizeof(float), most);
+    if (film > most) throw CapacityError("device memory for the film of " + picture + ", in bytes", film, most);
+    if (!device.cpu) return;
+    // A copy of the film, and the means and the picture, or what is written of it.
+    const std::uint64_t planes = sizeof(float) * pixels * (parts.sums() + 3 + channels(options.aovs));
+    const std::uint64_t all = film + std::max(film + planes, 2 * film);
+    if (all > device.global_bytes)
+        throw CapacityError("memory for film and picture of " + picture + ", in bytes", all, device.global_bytes);
 }
+
+void check_film(const Device& device, const RenderOptions& options) { check_film(device.info(), options); }
 
 } // namespace boxwood

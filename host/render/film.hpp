@@ -37,6 +37,10 @@ struct FilmSample {
 /// Floats in the film of a picture: those of its pixels, in whole blocks of 8.
 std::uint64_t film_size(FilmParts parts, std::uint64_t pixels);
 
+/// Throws CapacityError when the film of a picture of these options does not fit such a device; for a CPU, whose memory is the
+/// host's, with what Render::image() and Render::state() then need beside it.
+void check_film(const DeviceInfo& device, const RenderOptions& options);
+
 /// A film without samples. Throws CapacityError.
 Buffer<float> make_film(Device& device, FilmParts parts, std::size_t pixels);
 

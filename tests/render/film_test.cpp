@@ -186,4 +186,21 @@ TEST_CASE("film: what does not fit is refused before it is made") {
     CHECK_NOTHROW(check_film(device, {.light = {}, .width = 64, .height = 64, .aovs = {}}));
 }
 
+TEST_CASE("film: what a picture takes beside the film counts where the device's memory is the host's") {
+    const RenderOptions options{.light = {}, .width = 64, .height = 64, .aovs = {}};
+    constexpr std::uint64_t film = 15 * 4096 * sizeof(float); // two parts of light, their losses, three moments
+    DeviceInfo device;
+    device.largest_buffer_bytes = device.global_bytes = film;
+    CHECK_NOTHROW(check_film(device, options));
+    device.cpu = true;
+    CHECK_THROWS_AS(check_film(device, options), CapacityError);
+    device.global_bytes = 3 * film; // a checkpoint: the film and its bytes
+    CHECK_NOTHROW(check_film(device, options));
+    RenderOptions many = options;
+    many.aovs = all_aovs();
+    CHECK_THROWS_AS(check_film(device, many), CapacityError);
+    device.largest_buffer_bytes = film - 1;
+    CHECK_THROWS_AS(check_film(device, options), CapacityError);
+}
+
 TEST_SUITE_END();
