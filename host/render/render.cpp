@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -68,7 +69,26 @@ void add_light_channel(Aov aov, FilmParts parts, const std::vector<float>& film,
     if (aov == Aov::samples) image.channels.push_back({"samples.N", film_samples(parts, means[0].size(), film)});
 }
 
-void add_attributes(const RenderOptions& options, const Camera& camera, std::uint32_t samples, Image& image) {
+/// "none", "constant R,G,B" or "picture WxH".
+std::string describe(const Environment& environment) {
+    if (environment.width > 0)
+        return "picture " + std::to_string(environment.width) + "x" + std::to_string(environment.height);
+    if (environment.radiance == glm::vec3(0.0f)) return "none";
+    char text[64];
+    std::snprintf(text, sizeof text, "constant %.9g,%.9g,%.9g", double{environment.radiance.x},
+                  double{environment.radiance.y}, double{environment.radiance.z});
+    return text;
+}
+
+std::string describe(const Tree& tree) {
+    std::string words;
+    for (const std::string_view word : {name(tree.layout), name(tree.levels), name(tree.bounds)})
+        words += (words.empty() ? "" : ", ") + std::string(word);
+    return words;
+}
+
+void add_attributes(const RenderOptions& options, const Camera& camera, const std::string& environment,
+                    std::uint32_t samples, Image& image) {
     const LightOptions& light = options.light;
     auto& attributes = image.attributes;
     attributes["boxwood"] = std::string(BOXWOOD_VERSION);
@@ -76,9 +96,14 @@ void add_attributes(const RenderOptions& options, const Camera& camera, std::uin
     attributes["primary"] = std::string(name(light.primary));
     attributes["sampler"] = std::string(name(light.sampler));
     attributes["strategy"] = std::string(name(light.strategy));
+    attributes["hemisphere"] = std::string(name(light.hemisphere));
+    attributes["filter"] = std::string(name(light.filter));
     attributes["seed"] = std::to_string(light.seed); // 64 bits
     attributes["samples"] = static_cast<std::int32_t>(samples);
+    attributes["plannedSamples"] = static_cast<std::int32_t>(light.samples); // which places them
     attributes["depth"] = static_cast<std::int32_t>(light.depth);
+    if (has(light.integrator, Aov::ao)) attributes["aoDistance"] = options.ao_distance;
+    attributes["environment"] = environment;
     attributes["camera"] = camera.name;
     attributes["worldToCamera"] = glm::mat4(glm::inverse(glm::dmat4(camera.to_world)));
     if (camera.perspective)
@@ -99,10 +124,12 @@ struct Render::State {
     std::vector<Aov> aovs;
     Buffer<float> film;
     std::uint32_t samples = 0;
+    std::uint32_t ahead = 0; ///< Pixels, from the first, that have one sample more.
     Geometry geometry;
     std::vector<std::string> warnings;
     Appearance appearance;
     EnvironmentMap environment;
+    std::string environment_words;
     AmbientLight ambient;                 ///< Of Integrator::ambient only.
     std::optional<Rasteriser> rasteriser; ///< Of Primary::raster only.
     mutable std::optional<std::uint64_t> fingerprint;
@@ -112,7 +139,7 @@ struct Render::State {
         : device(on), scene(of), tree(built), camera(by), options(with), parts(film_parts(with.light.integrator)),
           aovs(without_repetition(with.aovs)), film(make_film(on, parts, std::size_t{with.width} * with.height)),
           geometry(upload(on, of)), appearance(upload_appearance(on, of, shading_requirements(of), warnings)),
-          environment(upload_environment(on, around)) {
+          environment(upload_environment(on, around)), environment_words(describe(around)) {
         if (options.light.integrator == Integrator::ambient) ambient = make_ambient_light(on, appearance, around);
         if (options.light.primary == Primary::raster) rasteriser.emplace(on, scene, tree, geometry);
         if (options.light.integrator == Integrator::direct) options.light.depth = std::min(options.light.depth, 1u);
@@ -140,9 +167,14 @@ Render::~Render() = default;
 Render::Render(Render&&) noexcept = default;
 Render& Render::operator=(Render&&) noexcept = default;
 
+Render::State& Render::held() const {
+    if (!state_) throw Error("render: a Render that was moved from has no picture");
+    return *state_;
+}
+
 void Render::advance() {
     if (done()) return;
-    State& state = *state_;
+    State& state = held();
     const Stage stage(state.device, "render");
     const std::uint32_t pixels = state.pixels(), most = std::min(state.options.batch, pixels);
     const Buffer<CameraRecord> camera =
@@ -150,23 +182,24 @@ void Render::advance() {
                       camera_jitter(state.options.light, state.samples));
     const Scenery scenery{state.world(), state.ambient, state.rasteriser ? &*state.rasteriser : nullptr};
     const SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
-    for (std::uint32_t first = 0, count = 0; first < pixels; first += count) {
-        count = std::min(most, pixels - first);
+    for (std::uint32_t count = 0; state.ahead < pixels; state.ahead += count) {
+        count = std::min(most, pixels - state.ahead);
         const FilmSample sample =
-            take_sample(state.device, scenery, state.options, state.samples, {camera, first, count}, buffers);
+            take_sample(state.device, scenery, state.options, state.samples, {camera, state.ahead, count}, buffers);
         add_sample(state.device, state.parts, sample, state.film);
     }
+    state.ahead = 0;
     ++state.samples;
 }
 
-const std::vector<std::string>& Render::warnings() const { return state_->warnings; }
+const std::vector<std::string>& Render::warnings() const { return held().warnings; }
 
-std::uint32_t Render::samples() const { return state_->samples; }
+std::uint32_t Render::samples() const { return held().samples; }
 
-bool Render::done() const { return state_->samples >= state_->options.light.samples; }
+bool Render::done() const { return held().samples >= held().options.light.samples; }
 
 Image Render::image() const {
-    const State& state = *state_;
+    const State& state = held();
     Image image{state.options.width, state.options.height, {}};
     {
         const std::vector<float> film = download(state.device, state.film);
@@ -175,27 +208,34 @@ Image Render::image() const {
         for (const Aov aov : state.aovs) add_light_channel(aov, state.parts, film, means, image);
     }
     add_centre_channels(state.device, state.scene, state.world(), state.camera, state.options, state.aovs, image);
-    add_attributes(state.options, state.camera, state.samples, image);
+    add_attributes(state.options, state.camera, state.environment_words, state.samples, image);
+    const bool costs = state.options.light.integrator == Integrator::cost ||
+                       std::find(state.aovs.begin(), state.aovs.end(), Aov::cost) != state.aovs.end();
+    if (costs) image.attributes["tree"] = describe(state.tree);
     return image;
 }
 
 std::uint64_t Render::rejected_samples() const {
-    const std::vector<float> film = download(state_->device, state_->film);
+    const State& state = held();
+    const std::vector<float> film = download(state.device, state.film);
     std::uint64_t kept = 0;
-    for (const std::uint32_t count : film_samples(state_->parts, state_->pixels(), film)) kept += count;
-    return std::uint64_t{state_->pixels()} * state_->samples - kept;
+    for (const std::uint32_t count : film_samples(state.parts, state.pixels(), film)) kept += count;
+    return std::uint64_t{state.pixels()} * state.samples + state.ahead - kept;
 }
 
 std::vector<std::byte> Render::state() const {
-    return encode_checkpoint({state_->samples, download(state_->device, state_->film)}, state_->identity());
+    const State& state = held();
+    if (state.ahead != 0) throw Error("render: a sample was broken off; its pixels are no state to go on from");
+    return encode_checkpoint({state.samples, download(state.device, state.film)}, state.identity());
 }
 
 void Render::restore(std::span<const std::byte> bytes, std::string_view file) {
-    State& state = *state_;
+    State& state = held();
     const Checkpoint checkpoint =
         decode_checkpoint(bytes, state.identity(), state.film.size(), state.options.light.samples, file);
     write(state.device, std::span<const float>(checkpoint.film), state.film.view());
     state.samples = checkpoint.samples;
+    state.ahead = 0;
 }
 
 Image render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment, const Camera& camera,

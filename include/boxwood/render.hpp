@@ -72,7 +72,8 @@ struct RenderOptions {
     std::uint32_t batch = 1u << 18; ///< Pixels at a time, at least 1: memory for speed. Pictures do not depend on it.
 };
 
-/// A picture that grows: each sample of every pixel is added to the ones before.
+/// A picture that grows: each sample of every pixel is added to the ones before. One that was moved from can be assigned to and
+/// destroyed; else it throws Error.
 class Render {
 public:
     /// Uploads `scene` and `environment`; `tree` was built of the same scene on the same device. Device, scene and tree stay
@@ -87,19 +88,21 @@ public:
     /// What was put in the place of pictures that cannot be used, and the like; one line each.
     const std::vector<std::string>& warnings() const;
 
-    /// One sample of every pixel. Nothing when done().
+    /// One sample of every pixel. Nothing when done(). When it throws, the sample is not counted, some pixels may have it already,
+    /// and the next advance() takes it for the others: each pixel gets every sample once.
     void advance();
     std::uint32_t samples() const; ///< Taken so far.
     bool done() const;             ///< All of LightOptions::samples.
 
     /// The picture so far: R, G, B, linear, 0 before the first sample, then the channels of each AOV once, in the order of the
-    /// enumeration. Its attributes tell integrator, sampler, seed, samples and camera. Never NaN.
+    /// enumeration. Its attributes tell all options that decide about pixels, samples and camera. Never NaN.
     Image image() const;
 
     /// Samples of pixels so far that were NaN, infinite or negative, and so left out. None are expected. Waits.
     std::uint64_t rejected_samples() const;
 
-    /// All that a Render of the same arguments needs to go on from here to the same picture, bit by bit. Waits.
+    /// All that a Render of the same arguments needs to go on from here to the same picture, bit by bit. Waits. Throws Error when
+    /// some pixels are a sample ahead, after an advance() that threw.
     std::vector<std::byte> state() const;
     /// Goes on from a state. Throws InputError naming `file` when it is damaged, of another version, or of other arguments (scene,
     /// camera, options, or device; batch and AOVs may differ, and so may the tree but for Integrator::cost, which shows it).
@@ -107,6 +110,7 @@ public:
 
 private:
     struct State;
+    State& held() const; ///< Throws Error when moved from.
     std::unique_ptr<State> state_;
 };
 
@@ -114,7 +118,8 @@ private:
 Image render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment, const Camera& camera,
              const RenderOptions& options = {});
 
-/// Throws CapacityError when the film of a picture of these options does not fit the device: known without a scene.
+/// Throws CapacityError when the film of a picture of these options does not fit the device, or film and picture together a CPU,
+/// whose memory is the host's: known without a scene.
 void check_film(const Device& device, const RenderOptions& options);
 
 /// How linear light becomes a preview.
@@ -125,11 +130,13 @@ struct PreviewOptions {
     bool tone_curve = true;
 };
 
-/// The channels R, G, B of `image` as 8-bit sRGB, 3 * width * height bytes. Throws InputError without them.
+/// The channels R, G, B of `image` as 8-bit sRGB, 3 * width * height bytes. Throws InputError without them, or when one has
+/// another size.
 std::vector<std::uint8_t> preview(const Image& image, const PreviewOptions& options = {});
 
 /// The exposure that suits `image`: the geometric mean of the median and the 90th percentile of the luminance of its pixels that
-/// have any becomes 0.3. 0 for a black picture. Throws InputError without R, G and B. O(pixels).
+/// have any becomes 0.3. 0 for a black picture. Throws InputError without R, G and B, or when one has
+/// another size. O(pixels).
 float suitable_exposure(const Image& image);
 
 /// A heat map of the channel "cost.volumes" as 8-bit sRGB, 3 * width * height bytes.
@@ -137,7 +144,7 @@ struct HeatMap {
     std::vector<std::uint8_t> rgb;
     std::uint32_t top = 0; ///< Count at the bright end of the map: the 99.5th percentile; larger ones are clamped.
 };
-/// Throws InputError without that channel.
+/// Throws InputError without that channel, or when it has another size.
 HeatMap cost_preview(const Image& image);
 
 } // namespace boxwood

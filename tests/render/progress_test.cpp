@@ -3,8 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "boxwood/error.hpp"
+#include "io/samples.hpp"
 #include "render/two_squares.hpp"
 
 using namespace boxwood;
@@ -25,13 +30,40 @@ struct Painter {
     Device& device = test_device();
     Scene scene = two_squares(1.0f);
     Tree tree = build(device, scene);
+    Environment around = white();
+    Camera camera = wide_camera();
     RenderOptions options;
 
     Painter(Integrator integrator, std::uint32_t samples) : options(options_of(integrator, {}, samples)) {
         for (const Aov aov : all_aovs())
             if (has(integrator, aov)) options.aovs.push_back(aov);
     }
-    Render start() { return Render(device, scene, tree, white(), wide_camera(), options); }
+    Render start() { return Render(device, scene, tree, around, camera, options); }
+};
+
+/// While it lives, a kernel file that does not compile.
+class BrokenKernel {
+public:
+    explicit BrokenKernel(const std::string& file) {
+        const std::filesystem::path target = folder_.path() / file;
+        std::filesystem::create_directories(target.parent_path());
+        write_bytes(target, "#error broken for a test\n");
+        if (const char* set = std::getenv(variable)) before_ = set;
+        ::setenv(variable, folder_.path().c_str(), 1);
+    }
+    ~BrokenKernel() {
+        if (before_)
+            ::setenv(variable, before_->c_str(), 1);
+        else
+            ::unsetenv(variable);
+    }
+    BrokenKernel(const BrokenKernel&) = delete;
+    BrokenKernel& operator=(const BrokenKernel&) = delete;
+
+private:
+    static constexpr const char* variable = "BOXWOOD_KERNEL_DIR";
+    TemporaryFolder folder_;
+    std::optional<std::string> before_;
 };
 
 constexpr std::array some_integrators = {Integrator::path, Integrator::direct,  Integrator::ambient,
@@ -107,6 +139,51 @@ TEST_CASE("render: a picture grows to what render() gives, and goes on from a st
     }
 }
 
+TEST_CASE("render: a sample that is broken off is taken for the rest of the pixels, and no state") {
+    // Paths that leave the picture's top rows all meet nothing, those of later batches not: only these need the program that is
+    // broken for a while.
+    Painter painter(Integrator::path, 3);
+    painter.options.light.strategy = Strategy::bsdf;
+    painter.options.batch = 2 * width;
+    painter.options.aovs = {Aov::samples, Aov::variance};
+    const Image whole = render(painter.device, painter.scene, painter.tree, white(), wide_camera(), painter.options);
+
+    Device device(std::to_string(test_device().info().index)); // without any program yet
+    const Tree tree = build(device, painter.scene);
+    Render work(device, painter.scene, tree, white(), wide_camera(), painter.options);
+    {
+        const BrokenKernel broken("render/path_queue.cl");
+        for (int i = 0; i < 2; ++i) CHECK_THROWS_AS(work.advance(), ProgramError);
+        CHECK(work.samples() == 0);
+        CHECK(work.rejected_samples() == 0);
+        const std::vector<std::uint32_t> counts = plane<std::uint32_t>(work.image(), "samples.N");
+        CHECK(counts.front() == 1); // or nothing would be tested
+        CHECK(counts.back() == 0);
+        CHECK_THROWS_AS(work.state(), Error);
+    }
+    while (!work.done()) work.advance();
+    CHECK(work.rejected_samples() == 0);
+    CHECK(same_channels(work.image(), whole));
+}
+
+TEST_CASE("render: one that was moved from says so, and can be assigned to") {
+    Painter painter(Integrator::normals, 2);
+    Render work = painter.start();
+    work.advance();
+    Render other = std::move(work);
+    CHECK(other.samples() == 1);
+    CHECK_THROWS_AS(work.advance(), Error);
+    CHECK_THROWS_AS(work.samples(), Error);
+    CHECK_THROWS_AS(work.done(), Error);
+    CHECK_THROWS_AS(work.warnings(), Error);
+    CHECK_THROWS_AS(work.image(), Error);
+    CHECK_THROWS_AS(work.rejected_samples(), Error);
+    CHECK_THROWS_AS(work.state(), Error);
+    CHECK_THROWS_AS(work.restore(other.state(), "test"), Error);
+    work = std::move(other);
+    CHECK(work.samples() == 1);
+}
+
 TEST_CASE("render: a state of something else, or a damaged one, is refused") {
     Painter painter(Integrator::normals, 4);
     Render work = painter.start();
@@ -143,7 +220,22 @@ TEST_CASE("render: a state of something else, or a damaged one, is refused") {
     CHECK_FALSE(differs([](Painter&) {}));
     CHECK(differs([](Painter& other) { other.options.light.seed = 2; }));
     CHECK(differs([](Painter& other) { other.options.light.samples = 8; }));
+    CHECK(differs([](Painter& other) { other.options.light.depth = 5; }));
+    CHECK(differs([](Painter& other) { other.options.light.primary = Primary::raster; }));
+    CHECK(differs([](Painter& other) { other.options.light.sampler = SamplerKind::random; }));
+    CHECK(differs([](Painter& other) { other.options.light.strategy = Strategy::bsdf; }));
+    CHECK(differs([](Painter& other) { other.options.light.hemisphere = Hemisphere::uniform; }));
+    CHECK(differs([](Painter& other) { other.options.light.filter = TextureFilter::nearest; }));
+    CHECK(differs([](Painter& other) { other.options.ao_distance = 2.0f; }));
     CHECK(differs([](Painter& other) { other.options.width += 1; }));
+    CHECK(differs([](Painter& other) { std::swap(other.options.width, other.options.height); }));
+    CHECK(differs([](Painter& other) { other.around.radiance.b = 0.5f; }));
+    CHECK(differs([](Painter& other) { other.around = {glm::vec3(0.0f), 1, 1, {glm::vec3(1.0f)}}; }));
+    CHECK(differs([](Painter& other) { other.camera.to_world[3].z = 0.25f; }));
+    CHECK(differs([](Painter& other) { other.camera.vertical_fov = 1.1f; }));
+    CHECK(differs([](Painter& other) { other.camera.perspective = false; }));
+    CHECK(differs([](Painter& other) { other.scene.lights.emplace_back(); }));
+    CHECK(differs([](Painter& other) { other.scene.instances[1].transform[3].y = 0.5f; }));
     CHECK(differs([](Painter& other) { other.options.light.integrator = Integrator::cost; }));
     CHECK(differs([](Painter& other) { other.scene.meshes[0].positions[0].x -= 0.5f; }));
     CHECK(differs([](Painter& other) { other.scene.materials[1].base_color.x = 0.5f; }));

@@ -132,6 +132,50 @@ TEST_CASE("render: only what is asked for is there, once, and the header says ho
     CHECK(std::get<glm::mat4>(plain.attributes.at("worldToCamera")) == glm::mat4(1.0f));
 }
 
+TEST_CASE("render: the header tells every option that decides about pixels") {
+    Device& device = test_device();
+    const Scene scene = two_squares(1.0f);
+    const Tree tree = build(device, scene);
+    const auto header = [&](const auto& change) {
+        RenderOptions options = options_of(Integrator::ao, {}, 4);
+        options.ao_distance = 1.5f;
+        Environment around;
+        Camera camera = wide_camera();
+        change(options, around, camera);
+        return Render(device, scene, tree, around, camera, options).image().attributes;
+    };
+    const auto plain = header([](RenderOptions&, Environment&, Camera&) {});
+    CHECK(std::get<std::string>(plain.at("hemisphere")) == "cosine");
+    CHECK(std::get<std::string>(plain.at("filter")) == "anisotropic");
+    CHECK(std::get<std::string>(plain.at("environment")) == "none");
+    CHECK(std::get<float>(plain.at("aoDistance")) == 1.5f);
+    CHECK(std::get<std::int32_t>(plain.at("plannedSamples")) == 4);
+    CHECK(std::get<std::int32_t>(plain.at("samples")) == 0);
+    CHECK(std::get<std::int32_t>(plain.at("depth")) == 6);
+    const auto differs = [&](const auto& change) { return header(change) != plain; };
+    const auto light = [&](const auto& change) {
+        return differs([&](RenderOptions& options, Environment&, Camera&) { change(options.light); });
+    };
+    CHECK(light([](LightOptions& l) { l.integrator = Integrator::path; }));
+    CHECK(light([](LightOptions& l) { l.primary = Primary::raster; }));
+    CHECK(light([](LightOptions& l) { l.sampler = SamplerKind::random; }));
+    CHECK(light([](LightOptions& l) { l.strategy = Strategy::lights; }));
+    CHECK(light([](LightOptions& l) { l.hemisphere = Hemisphere::uniform; }));
+    CHECK(light([](LightOptions& l) { l.filter = TextureFilter::nearest; }));
+    CHECK(light([](LightOptions& l) { l.samples = 5; }));
+    CHECK(light([](LightOptions& l) { l.depth = 5; }));
+    CHECK(light([](LightOptions& l) { l.seed = 1ull << 40; }));
+    CHECK(differs([](RenderOptions& o, Environment&, Camera&) { o.ao_distance = 1.25f; }));
+    CHECK(differs([](RenderOptions&, Environment& e, Camera&) { e.radiance.g = 0.5f; }));
+    CHECK(differs([](RenderOptions&, Environment& e, Camera&) { e = {{}, 2, 1, {2, glm::vec3(1.0f)}}; }));
+    CHECK(differs([](RenderOptions&, Environment&, Camera& c) { c.to_world[3].x = 1.0f; }));
+    CHECK(differs([](RenderOptions&, Environment&, Camera& c) { c.vertical_fov = 1.25f; }));
+    CHECK(differs([](RenderOptions&, Environment&, Camera& c) { c.perspective = false; }));
+    const auto costs = header([](RenderOptions& o, Environment&, Camera&) { o.aovs = {Aov::cost}; });
+    CHECK(std::get<std::string>(costs.at("tree")) == "wide8, one, aabb");
+    CHECK(plain.find("tree") == plain.end());
+}
+
 TEST_CASE("render: an empty scene renders nothing, and no NaN") {
     const Image image = picture(Scene{}, centre_aovs());
     for (std::uint32_t i = 0; i < width * height; ++i) {
