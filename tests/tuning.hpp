@@ -25,7 +25,7 @@ private:
 /// first two under a checker).
 inline std::vector<Tuning> tunings() {
     if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
-    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1}};
+    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1, 8}};
 }
 
 } // namespace boxwood::test

@@ -49,6 +49,13 @@ INLINE whole scramble_reversed(whole x, whole seed) {
     return x;
 }
 
+/// A bijection of 32 bits in which every input bit reaches every output bit (Wellons' lowbias32).
+INLINE whole mix_word(whole x) {
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
 /// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is the sum of
 /// the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a sum over supersets.
 INLINE whole sobol_second(whole index) {
@@ -109,9 +116,9 @@ INLINE void sample_square(const Sampler* sampler, whole dimension, real* u, real
     // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a net.
     const whole reversed = reverse_bits((whole)(sampler->sample));
     const whole index = reverse_bits(scramble_reversed(reversed, TO_WHOLE(of_dimension)));
-    const wide seeds = random_bits(of_dimension, (whole)(0u));
-    *u = unit_real(reverse_bits(scramble_reversed(index, TO_WHOLE(seeds >> 32))));
-    *v = unit_real(reverse_bits(scramble_reversed(sobol_second(index), TO_WHOLE(seeds))));
+    const whole seed = TO_WHOLE(of_dimension >> 32);
+    *u = unit_real(reverse_bits(scramble_reversed(index, seed)));
+    *v = unit_real(reverse_bits(scramble_reversed(sobol_second(index), mix_word(seed ^ TO_WHOLE(of_dimension)))));
 #endif
 #endif
 }

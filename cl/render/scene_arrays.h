@@ -2,6 +2,7 @@
 // What shading reads of a scene, and the macros that say which of it there is (see ShadingRequirements). An array that no macro
 // asks for may be null.
 //
+// TRANSFORMS see render/surface.h
 // MATERIALS  1: triangles name their materials; 0: all have the first
 // NORMALS    1: vertices have normals; 0: triangles are flat
 // TANGENTS   1: materials have normal textures and vertices tangents

@@ -3,7 +3,8 @@
 //
 // GROUP_SIZE  work-items per work-group.
 // LANES       1
-// compile: LANES=1
+// TRANSFORMS  1
+// compile: LANES=1 TRANSFORMS=1
 #include "render/random.h"
 #include "render/surface.h"
 #include "render/tangents.h"

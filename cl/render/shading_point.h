@@ -63,10 +63,10 @@ INLINE void place_beam(const Triangles* triangles, const Vector* along, const Be
     scale3(scale, &edge1);
     scale3(scale, &edge2);
     cross3(&edge1, &edge2, &normal);
-    rotate_rows(TO_OBJECT(triangles), along, &direction);
+    vector_to_object(triangles, along, &direction);
     normalise_any3(&direction);
-    rotate_rows(TO_OBJECT(triangles), &beam->x, &x);
-    rotate_rows(TO_OBJECT(triangles), &beam->y, &y);
+    vector_to_object(triangles, &beam->x, &x);
+    vector_to_object(triangles, &beam->y, &y);
     scale3(scale, &x);
     scale3(scale, &y);
     weight_change(&edge1, &edge2, &normal, &direction, &x, change_x);
@@ -135,8 +135,8 @@ INLINE void bend_normal(const SceneArrays* scene, const Triangles* triangles, co
     cross3(object, &tangent, &bitangent);
     // The bitangent is a direction on the surface, so that a mirrored instance mirrors its bumps.
     scale3(LOAD_LANES(handedness), &bitangent);
-    rotate_rows(TO_WORLD(triangles), &tangent, &along);
-    rotate_rows(TO_WORLD(triangles), &bitangent, &across);
+    vector_to_world(triangles, &tangent, &along);
+    vector_to_world(triangles, &bitangent, &across);
     normalise_any3(&along);
     normalise_any3(&across);
     Vector bent = *normal;
@@ -163,7 +163,7 @@ INLINE void shading_normal(const SceneArrays* scene, const Triangles* triangles,
     exact_cross3(&edge1, &edge2, &flat);
     normalise_any3(&flat);
     choose3(NOT(largest3(&object) > 0.0f), &flat, &object);
-    rotate_columns(TO_OBJECT(triangles), &object, &bent);
+    normal_to_world(triangles, &object, &bent);
     // By the surface itself: a normal texture may bend the normal past the triangle's plane.
     const real side = CHOOSE(dot3(&bent, &surface->normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
 #if TANGENTS

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The surfaces at hits, one per lane: point, normal, and how far a new ray must start from it.
+//
+// TRANSFORMS  0: every instance has its mesh where its vertices are; 1: instances have transforms
 #ifndef BOXWOOD_RENDER_SURFACE_H
 #define BOXWOOD_RENDER_SURFACE_H
 #include "runtime/vector.h"
 #include "shared/instance.h"
 #include "shared/ray.h"
+
+#ifndef TRANSFORMS
+#error "define TRANSFORMS (0 or 1)"
+#endif
 
 // The largest float below 1: the end of a segment is left out.
 #define BEFORE_END 0x1.fffffep-1f
@@ -28,11 +34,10 @@ typedef struct Triangles {
     uint corner[3][LANES];            ///< Vertices.
     Vector first, edge1, edge2;       ///< Object space.
     Vector largest;                   ///< The largest magnitudes of the vertices.
-    real placement[24];               ///< Of the instance: to_object, then to_world.
+#if TRANSFORMS
+    real to_object[12], to_world[12]; ///< Of the instance.
+#endif
 } Triangles;
-
-#define TO_OBJECT(triangles) ((triangles)->placement)
-#define TO_WORLD(triangles) ((triangles)->placement + 12)
 
 /// Hit points in world space, one per lane.
 typedef struct Surface {
@@ -112,12 +117,20 @@ INLINE void load_triangles(global const float* positions, global const uint* tri
     result->largest.y = larger(larger(fabs(result->first.y), fabs(second.y)), fabs(third.y));
     result->largest.z = larger(larger(fabs(result->first.z), fabs(second.z)), fabs(third.z));
 
+#if TRANSFORMS
     const uint stride = sizeof(InstanceRecord) / sizeof(float);
-    load_rows8(instances->to_object, stride, hits->instance, result->placement);
-    load_rows8(instances->to_object + 8, stride, hits->instance, result->placement + 8);
-    load_rows8(instances->to_object + 16, stride, hits->instance, result->placement + 16);
+    real rows[24];
+    load_rows8(instances->to_object, stride, hits->instance, rows);
+    load_rows8(instances->to_object + 8, stride, hits->instance, rows + 8);
+    load_rows8(instances->to_object + 16, stride, hits->instance, rows + 16);
+    _Pragma("unroll") for (uint k = 0; k < 12; ++k) {
+        result->to_object[k] = rows[k];
+        result->to_world[k] = rows[12 + k];
+    }
+#endif
 }
 
+#if TRANSFORMS
 /// rows (3 x 4, affine) applied to a vector.
 INLINE void rotate_rows(const real* rows, const Vector* v, Vector* result) {
     const Vector r = {fma(rows[0], v->x, fma(rows[1], v->y, rows[2] * v->z)),
@@ -126,34 +139,79 @@ INLINE void rotate_rows(const real* rows, const Vector* v, Vector* result) {
     *result = r;
 }
 
-/// rows^T v: to_object's take normals to world space.
-INLINE void rotate_columns(const real* rows, const Vector* v, Vector* result) {
-    const Vector r = {fma(rows[0], v->x, fma(rows[4], v->y, rows[8] * v->z)),
-                      fma(rows[1], v->x, fma(rows[5], v->y, rows[9] * v->z)),
-                      fma(rows[2], v->x, fma(rows[6], v->y, rows[10] * v->z))};
-    *result = r;
-}
-
-INLINE void transform_point(const real* rows, const Vector* p, Vector* result) {
-    rotate_rows(rows, p, result);
-    result->x += rows[3];
-    result->y += rows[7];
-    result->z += rows[11];
-}
-
 /// The same of magnitudes: bounds of those that meet in it.
-INLINE void bound_vector(const real* rows, const Vector* magnitude, Vector* result) {
+INLINE void bound_rows(const real* rows, const Vector* magnitude, Vector* result) {
     const Vector r = {fma(fabs(rows[0]), magnitude->x, fma(fabs(rows[1]), magnitude->y, fabs(rows[2]) * magnitude->z)),
                       fma(fabs(rows[4]), magnitude->x, fma(fabs(rows[5]), magnitude->y, fabs(rows[6]) * magnitude->z)),
                       fma(fabs(rows[8]), magnitude->x, fma(fabs(rows[9]), magnitude->y, fabs(rows[10]) * magnitude->z))};
     *result = r;
 }
+#endif
 
-INLINE void bound_point(const real* rows, const Vector* magnitude, Vector* result) {
-    bound_vector(rows, magnitude, result);
-    result->x += fabs(rows[3]);
-    result->y += fabs(rows[7]);
-    result->z += fabs(rows[11]);
+INLINE void point_to_world(const Triangles* triangles, const Vector* p, Vector* result) {
+#if TRANSFORMS
+    const real* rows = triangles->to_world;
+    rotate_rows(rows, p, result);
+    result->x += rows[3];
+    result->y += rows[7];
+    result->z += rows[11];
+#else
+    (void)triangles;
+    *result = *p;
+#endif
+}
+
+INLINE void vector_to_world(const Triangles* triangles, const Vector* v, Vector* result) {
+#if TRANSFORMS
+    rotate_rows(triangles->to_world, v, result);
+#else
+    (void)triangles;
+    *result = *v;
+#endif
+}
+
+INLINE void vector_to_object(const Triangles* triangles, const Vector* v, Vector* result) {
+#if TRANSFORMS
+    rotate_rows(triangles->to_object, v, result);
+#else
+    (void)triangles;
+    *result = *v;
+#endif
+}
+
+/// By the inverse transpose; of another length.
+INLINE void normal_to_world(const Triangles* triangles, const Vector* n, Vector* result) {
+#if TRANSFORMS
+    const real* rows = triangles->to_object;
+    const Vector r = {fma(rows[0], n->x, fma(rows[4], n->y, rows[8] * n->z)),
+                      fma(rows[1], n->x, fma(rows[5], n->y, rows[9] * n->z)),
+                      fma(rows[2], n->x, fma(rows[6], n->y, rows[10] * n->z))};
+    *result = r;
+#else
+    (void)triangles;
+    *result = *n;
+#endif
+}
+
+/// Bounds of the magnitudes that meet on the way of a vertex to a point in world space, and from there back to object space, as
+/// seen from the world.
+INLINE void bound_way(const Triangles* triangles, Vector* there, Vector* back) {
+#if TRANSFORMS
+    const real* to_world = triangles->to_world;
+    const real* to_object = triangles->to_object;
+    Vector object;
+    bound_rows(to_world, &triangles->largest, there);
+    there->x += fabs(to_world[3]);
+    there->y += fabs(to_world[7]);
+    there->z += fabs(to_world[11]);
+    bound_rows(to_object, there, &object);
+    object.x += fabs(to_object[3]);
+    object.y += fabs(to_object[7]);
+    object.z += fabs(to_object[11]);
+    bound_rows(to_world, &object, back);
+#else
+    *there = *back = triangles->largest;
+#endif
 }
 
 /// How far along `normal` the point of a new ray is moved so that a traversal, which sees the triangle through its own
@@ -169,12 +227,10 @@ INLINE void bound_point(const real* rows, const Vector* magnitude, Vector* resul
 /// together 32 u W + 5 u B. Slivers pass this: their triple product loses digits in proportion to how thin they are.
 /// Scales with the scene.
 INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) {
-    Vector world, there, back;
-    bound_point(TO_WORLD(triangles), &triangles->largest, &world);
-    bound_point(TO_OBJECT(triangles), &world, &there);
-    bound_vector(TO_WORLD(triangles), &there, &back);
+    Vector there, back;
+    bound_way(triangles, &there, &back);
     scale3((real)(5.0f), &back);
-    add_scaled3((real)(32.0f), &world, &back);
+    add_scaled3((real)(32.0f), &there, &back);
     return 0x1p-24f * reach3(normal, &back);
 }
 
@@ -184,8 +240,7 @@ INLINE void find_surface(const Triangles* triangles, const Vector* direction, co
     scale_to_one3(&edge1);
     scale_to_one3(&edge2);
     exact_cross3(&edge1, &edge2, &object);
-    // A normal goes to world space by the inverse transpose.
-    rotate_columns(TO_OBJECT(triangles), &object, &surface->normal);
+    normal_to_world(triangles, &object, &surface->normal);
     normalise_any3(&surface->normal);
     surface->clearance = surface_clearance(triangles, &surface->normal);
     const mask back = dot3(&surface->normal, direction) > 0.0f;
@@ -195,7 +250,7 @@ INLINE void find_surface(const Triangles* triangles, const Vector* direction, co
     Vector point = triangles->first;
     add_scaled3(hits->u, &triangles->edge1, &point);
     add_scaled3(hits->v, &triangles->edge2, &point);
-    transform_point(TO_WORLD(triangles), &point, &surface->point);
+    point_to_world(triangles, &point, &surface->point);
 }
 
 /// The origins of new rays on the normals' side of the surfaces.

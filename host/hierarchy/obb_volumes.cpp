@@ -33,9 +33,12 @@ struct Fit {
     Buffer<Obb> boxes;
 };
 
+/// Boxes at once: more than eight have too many numbers for the registers.
+std::uint32_t lanes(const Fit& fit) { return std::min(fit.device.tuning().lanes, 8u); }
+
 /// `extra` are the kernel's own macros, and those that it has otherwise than the rest.
 KernelRef kernel_of(const Fit& fit, const char* file, const char* name, Defines extra = {}) {
-    extra.merge(Defines{{"LANES", std::to_string(fit.device.tuning().lanes)},
+    extra.merge(Defines{{"LANES", std::to_string(lanes(fit))},
                         {"POINTS_PER_PRIMITIVE", std::to_string(fit.points_per_primitive)},
                         {"MEASURE_AREA", fit.options.measure == Measure::area ? "1" : "0"},
                         {"FALLBACK", fit.options.fallback ? "1" : "0"}});

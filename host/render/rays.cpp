@@ -41,8 +41,8 @@ void diffuse_rays(Device& device, const Geometry& geometry, BufferView<const Ray
                   std::uint64_t seed, BufferView<Ray> out) {
     check_sizes("diffuse_rays", rays.size(), hits.size(), out.size());
     const Slices slices = cut(device, rays.size());
-    launch(device, {"render/secondary.cl", "diffuse_rays", {{"LANES", "1"}}}, "diffuse rays", slices.slices,
-           geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
+    launch(device, {"render/secondary.cl", "diffuse_rays", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "diffuse rays",
+           slices.slices, geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
            static_cast<std::uint32_t>(rays.size()), slices.length, seed, out);
 }
 
@@ -50,8 +50,8 @@ void shadow_rays(Device& device, const Geometry& geometry, BufferView<const Ray>
                  const glm::vec3& light, BufferView<Ray> out) {
     check_sizes("shadow_rays", rays.size(), hits.size(), out.size());
     const Slices slices = cut(device, rays.size());
-    launch(device, {"render/secondary.cl", "shadow_rays", {{"LANES", "1"}}}, "shadow rays", slices.slices,
-           geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
+    launch(device, {"render/secondary.cl", "shadow_rays", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "shadow rays",
+           slices.slices, geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
            static_cast<std::uint32_t>(rays.size()), slices.length, light.x, light.y, light.z, out);
 }
 

@@ -6,10 +6,11 @@ namespace boxwood {
 std::string flag(bool needed) { return needed ? "1" : "0"; }
 
 Defines scene_defines(const Device& device, const ShadingRequirements& requirements, TextureFilter filter) {
-    Defines defines{{"MATERIALS", flag(requirements.materials)},     {"NORMALS", flag(requirements.normals)},
-                    {"TANGENTS", flag(requirements.tangents)},       {"UV_SETS", std::to_string(requirements.uv_sets)},
-                    {"COLORS", flag(requirements.colors)},           {"TEXTURES", flag(requirements.textures)},
-                    {"LANES", std::to_string(device.tuning().lanes)}};
+    Defines defines{
+        {"TRANSFORMS", flag(requirements.transforms)},     {"MATERIALS", flag(requirements.materials)},
+        {"NORMALS", flag(requirements.normals)},           {"TANGENTS", flag(requirements.tangents)},
+        {"UV_SETS", std::to_string(requirements.uv_sets)}, {"COLORS", flag(requirements.colors)},
+        {"TEXTURES", flag(requirements.textures)},         {"LANES", std::to_string(device.tuning().lanes)}};
     // TextureFilter counts down from the best one.
     if (requirements.textures) defines["FILTER"] = std::to_string(2 - static_cast<int>(filter));
     return defines;

@@ -71,7 +71,7 @@ DeviceInfo describe(const cl::Device& device, std::size_t index) {
 
 /// A CPU runs a few long slices on its vector units, each work-group one work-item; a GPU many short ones.
 Tuning default_tuning(const DeviceInfo& info) {
-    if (info.cpu) return {1, 16 * info.compute_units, 256, 8};
+    if (info.cpu) return {1, 16 * info.compute_units, 256, 16};
     return {64, 1024 * info.compute_units, 4};
 }
 
@@ -135,9 +135,9 @@ const Tuning& Device::tuning() const { return state_->tuning; }
 void Device::set_tuning(const Tuning& tuning) {
     const std::size_t limit = state_->device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
     if (tuning.group_size == 0 || tuning.group_size > limit || tuning.work_items == 0 || tuning.smallest_slice == 0 ||
-        (tuning.lanes != 1 && tuning.lanes != 8))
+        (tuning.lanes != 1 && tuning.lanes != 8 && tuning.lanes != 16))
         throw DeviceError(0, "setting the tuning", "",
-                          "sizes must be positive, groups at most " + std::to_string(limit) + ", lanes 1 or 8");
+                          "sizes must be positive, groups at most " + std::to_string(limit) + ", lanes 1, 8 or 16");
     state_->tuning = tuning;
 }
 

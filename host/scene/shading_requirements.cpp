@@ -46,6 +46,7 @@ public:
 
     ShadingRequirements requirements() const {
         ShadingRequirements needs;
+        needs.transforms = has("transforms");
         needs.materials = has("materials");
         needs.normals = has("normals");
         needs.tangents = has("tangents");
@@ -76,6 +77,9 @@ std::string element(const char* array, std::size_t index, const std::string& nam
 
 Needs needs_of(const Scene& scene) {
     Needs needs;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (scene.instances[i].transform != glm::mat4(1.0f))
+            needs.set("transforms", element("instances", i, scene.instances[i].name) + " is placed by a transform");
     const std::vector<bool> materials = materials_in_use(scene);
     std::string first;
     for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -113,6 +117,7 @@ std::vector<std::string> words(const ShadingRequirements& needs) {
     const auto add = [&result](bool needed, const char* word) {
         if (needed) result.emplace_back(word);
     };
+    add(needs.transforms, "transforms");
     add(needs.materials, "materials");
     add(needs.normals, "normals");
     add(needs.tangents, "tangents");

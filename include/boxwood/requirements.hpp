@@ -27,6 +27,7 @@ std::vector<std::string> words(const Requirements& requirements);
 
 /// What shading a scene needs: each member decides about a piece of the programs, and about a buffer or a part of one.
 struct ShadingRequirements {
+    bool transforms = false;   ///< Some mesh is not placed where its vertices are: object and world space differ.
     bool materials = false;    ///< More than one material is in use: triangles name theirs.
     bool normals = false;      ///< Some mesh in use has vertex normals, or some material a normal texture.
     bool tangents = false;     ///< Some material in use has a normal texture.
@@ -46,7 +47,7 @@ struct ShadingRequirements {
 /// scene).
 ShadingRequirements shading_requirements(const Scene& scene);
 
-/// The words for reports: "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",
+/// The words for reports: "transforms", "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",
 /// "textures", "alpha", "specular", "emission", "punctual-lights".
 std::vector<std::string> words(const ShadingRequirements& requirements);
 

@@ -39,7 +39,7 @@ std::vector<Subject> subjects(const std::vector<std::filesystem::path>& files) {
 
 ShadingRequirements everything() {
     ShadingRequirements all;
-    all.materials = all.normals = all.tangents = all.colors = all.textures = true;
+    all.transforms = all.materials = all.normals = all.tangents = all.colors = all.textures = true;
     all.uv_sets = 2;
     all.alpha = all.specular = all.emission = all.punctual = true;
     return all;

@@ -36,6 +36,7 @@ TEST_CASE("shading requires what materials and meshes in use ask for, and nothin
 
     scene.instances.push_back({"rich", 1, glm::mat4(1.0f)});
     needs = shading_requirements(scene);
+    CHECK_FALSE(needs.transforms);
     CHECK((needs.materials && needs.normals && needs.tangents && needs.colors && needs.textures));
     CHECK((needs.alpha && needs.specular && needs.emission && !needs.punctual));
     CHECK(needs.uv_sets == 2);
@@ -72,6 +73,7 @@ TEST_CASE("every required word has its reason, which names the element that asks
     };
     CHECK(because("two-levels") == "meshes[0] \"square\" is placed 2 times");
     CHECK(because("oriented-boxes") == "the options ask for obb-points");
+    CHECK(because("transforms") == "instances[1] \"again\" is placed by a transform");
     CHECK(because("materials") == "materials[0] \"lamp\" and the plain material are in use");
     CHECK(because("second-texture-coordinates") == "materials[0] \"lamp\" has a texture of its normal");
     CHECK(because("colors") == "meshes[0] \"square\" has colours");

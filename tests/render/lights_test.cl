@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// compile: LANES=1
-// compile: LANES=8
+// compile: LANES=1 TRANSFORMS=1
+// compile: LANES=16 TRANSFORMS=1
 #define MATERIALS 0
 #define NORMALS 0
 #define TANGENTS 0

@@ -42,7 +42,7 @@ Answers ask(const Scene& scene, const std::vector<Point>& points, std::vector<Pl
     std::vector<float> a[2], b[2];
     for (const int k : {0, 1}) {
         const Guarded<float> samples(device, 11 * count), densities(device, count);
-        launch(device, {"render/lights_test.cl", "lights_test", {{"LANES", k == 0 ? "1" : "8"}}}, "lights test", count,
+        launch(device, {"render/lights_test.cl", "lights_test", {{"LANES", k == 0 ? "1" : "16"}, {"TRANSFORMS", "1"}}}, "lights test", count,
                appearance.lights, appearance.light_distribution, static_cast<std::uint32_t>(appearance.lights.size()),
                upload(device, by_components(points), "points"), upload(device, by_components(places), "places"),
                static_cast<std::uint32_t>(count), samples.view(), densities.view());

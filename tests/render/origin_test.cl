@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Origins of new rays by two methods.
-// compile: LANES=1
+// compile: LANES=1 TRANSFORMS=1
 #include "render/surface.h"
 
 /// The method of Waechter and Binder 2019: integer steps of the coordinates along the normal, and near the origin a fixed offset.
