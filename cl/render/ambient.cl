@@ -90,7 +90,7 @@ INLINE mask find_light(global const LightRecord* lights, global const float* dis
     choice *= all;
     real probability;
     uint index[LANES], row[LANES];
-    FOR_LANES(lane) row[lane] = 0;
+    for (uint lane = 0; lane < LANES; ++lane) row[lane] = 0;
     choose(distribution, count, row, &choice, index, &probability);
     LightSample sample;
     sample_punctual(lights, index, &vertex->origin, probability / all, &sample);

@@ -117,7 +117,7 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
 #else
     const uint width = environment->record->width, height = environment->record->height;
     uint zero[LANES], row[LANES], column[LANES];
-    FOR_LANES(lane) zero[lane] = 0;
+    for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
     real of_row, of_column;
     choose(environment->rows, height, zero, &v, row, &of_row);
     choose(environment->columns, width, row, &u, column, &of_column);

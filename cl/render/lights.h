@@ -201,7 +201,7 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
 /// extent, which have no instance.
 INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const uint* primitive, real distance, real cosine) {
     uint low[LANES];
-    FOR_LANES(lane) low[lane] = 0;
+    for (uint lane = 0; lane < LANES; ++lane) low[lane] = 0;
     for (uint left = lights->count; left > 1; left -= left >> 1) {
         const uint step = left >> 1;
         for (uint lane = 0; lane < LANES; ++lane) {
@@ -230,7 +230,7 @@ INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const 
 INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const Vector* origin, real choice, real u, real v,
                          float share, LightSample* sample) {
     uint zero[LANES], index[LANES];
-    FOR_LANES(lane) zero[lane] = 0;
+    for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
     real probability;
     choose(lights->distribution, lights->count, zero, &choice, index, &probability);
     probability *= share;

@@ -202,7 +202,7 @@ INLINE void add_gathered(const Vector* light, const Paths* paths, mask indirect,
 INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
     int keeps[LANES];
     STORE_LANES(goes_on, keeps);
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         index[lane] = place;
         place += lane < count && keeps[lane];
     }

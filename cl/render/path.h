@@ -118,7 +118,7 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
 /// Which hits may give light or let it pass: where no bounce is left, nothing else counts.
 INLINE mask may_shine(const SceneArrays* scene, const Hits* hits) {
     int may[LANES];
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
 #if MATERIALS
         const uint triangle = scene->meshes[scene->instances[hits->instance[lane]].mesh].first_triangle + hits->primitive[lane];
         global const MaterialRecord* material = scene->materials + scene->triangle_materials[triangle];

@@ -13,20 +13,20 @@ INLINE void choose(global const float* distributions, uint count, const uint* ro
     int bits[LANES];
     STORE_LANES(AS_INT(*u), bits);
     global const float* start[LANES];
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         start[lane] = distributions + (size_t)row[lane] * (count + 1);
         index[lane] = 0;
     }
     for (uint left = count; left > 1; left -= left >> 1) {
         const uint step = left >> 1;
-        FOR_LANES(lane) {
+        for (uint lane = 0; lane < LANES; ++lane) {
             const int below = (bits[lane] - as_int(start[lane][index[lane] + step])) >> 31;
             index[lane] += step & ~(uint)below;
         }
     }
     // With 0 and 1 at the ends and u below 1, that is an element of a probability that is not 0.
     float low[LANES], high[LANES];
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         low[lane] = start[lane][index[lane]];
         high[lane] = start[lane][index[lane] + 1];
     }

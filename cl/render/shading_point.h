@@ -27,7 +27,7 @@ typedef struct Beam {
 } Beam;
 
 INLINE void material_numbers(const SceneArrays* scene, const Triangles* triangles, uint* material) {
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
 #if MATERIALS
         material[lane] = scene->triangle_materials[triangles->number[lane]];
 #else

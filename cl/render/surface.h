@@ -49,7 +49,7 @@ typedef struct Surface {
 
 /// The `used` elements from `first` on, one per lane; the lanes behind repeat the last one.
 INLINE void lane_indices(uint first, uint used, uint* index) {
-    FOR_LANES(lane) index[lane] = first + min(lane, used - 1);
+    for (uint lane = 0; lane < LANES; ++lane) index[lane] = first + min(lane, used - 1);
 }
 
 INLINE void load_rays(global const Ray* from, const uint* index, Rays* rays) {
@@ -83,14 +83,14 @@ INLINE void load_hits(global const Hit* from, const uint* index, Hits* hits) {
     hits->u = row[1];
     hits->v = row[2];
     hits->some = AS_INT(row[3]) != (int)BOXWOOD_NONE;
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         hits->primitive[lane] = from[index[lane]].primitive;
         hits->instance[lane] = from[index[lane]].instance;
     }
     if (!ANY(NOT(hits->some))) return;
     uint stand_in = index[0];
     for (uint lane = 1; lane < LANES && from[stand_in].primitive == BOXWOOD_NONE; ++lane) stand_in = index[lane];
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         if (hits->primitive[lane] != BOXWOOD_NONE) continue;
         hits->primitive[lane] = from[stand_in].primitive;
         hits->instance[lane] = from[stand_in].instance;
@@ -100,7 +100,7 @@ INLINE void load_hits(global const Hit* from, const uint* index, Hits* hits) {
 /// The triangles of `hits`, of which at least one is one. The arrays are those of a Geometry.
 INLINE void load_triangles(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
                            global const InstanceRecord* instances, const Hits* hits, Triangles* result) {
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         result->number[lane] = meshes[instances[hits->instance[lane]].mesh].first_triangle + hits->primitive[lane];
         const uint3 corner = vload3(result->number[lane], triangles);
         result->corner[0][lane] = corner.x;
@@ -123,7 +123,7 @@ INLINE void load_triangles(global const float* positions, global const uint* tri
     load_rows8(instances->to_object, stride, hits->instance, rows);
     load_rows8(instances->to_object + 8, stride, hits->instance, rows + 8);
     load_rows8(instances->to_object + 16, stride, hits->instance, rows + 16);
-    _Pragma("unroll") for (uint k = 0; k < 12; ++k) {
+    for (uint k = 0; k < 12; ++k) {
         result->to_object[k] = rows[k];
         result->to_world[k] = rows[12 + k];
     }

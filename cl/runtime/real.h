@@ -43,9 +43,6 @@ typedef ulong wide;
 #error "define LANES (1, 8 or 16)"
 #endif
 
-// For every lane, where the statement is short: otherwise PoCL keeps the loop, and all that it indexes in memory.
-#define FOR_LANES(lane) _Pragma("unroll") for (uint lane = 0; lane < LANES; ++lane)
-
 // Records of floats are read and written whole, one row per lane, and transposed in registers: picking single floats for the
 // lanes would make gather instructions of them, which are slow.
 
