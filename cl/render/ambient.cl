@@ -126,6 +126,8 @@ INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* ligh
                         const Hits* hits, Bounce* result) {
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     result->seen = result->light = result->around = dark;
+    null_rays(&result->shadow_rays);
+    null_rays(&result->next_rays);
     mask reflects = hits->some & bright(&result->throughput), lit = (mask)(0);
     if (ANY(reflects)) {
         Vertex vertex;
@@ -268,6 +270,7 @@ occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, 
         load_rays(rays, index, &view);
         load_hits(hits, index, &met);
         mask reflects = met.some;
+        null_rays(&next);
         if (ANY(reflects)) {
             Vertex vertex;
             reflects &= find_vertices(&scene, camera, &view.direction, &met, samples, true, &vertex);

@@ -68,7 +68,17 @@ INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* cam
 #endif
 }
 
-/// What the planes show where there is no hit.
+/// What the planes show of no hit.
+INLINE void null_pixels(Pixels* pixels) {
+    const Vector zero = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    pixels->position = pixels->geometric_normal = pixels->shading_normal = pixels->albedo = zero;
+    for (uint lane = 0; lane < LANES; ++lane) {
+        pixels->uv_derivatives[lane] = (float4)(0.0f);
+        pixels->material[lane] = BOXWOOD_NONE;
+    }
+}
+
+/// The same where `condition` holds, of pixels that have values.
 INLINE void clear_pixels(mask condition, Pixels* pixels) {
     const Vector zero = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     choose3(condition, &zero, &pixels->position);
@@ -103,6 +113,7 @@ g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* 
         Pixels pixels;
         load_rays(rays, index, &view);
         load_hits(hits, index, &met);
+        null_pixels(&pixels);
         if (ANY(met.some)) find_pixels(&scene, camera, &view.direction, &met, share, &pixels);
         clear_pixels(NOT(met.some), &pixels);
 #if PLANES & 1

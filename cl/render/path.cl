@@ -113,6 +113,7 @@ INLINE mask follow(const PathWorld* world, const PathSettings* settings, global 
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, throughput = paths->throughput;
     gathered->light = gathered->shadow = dark;
     gathered->has_shadow = (mask)(0);
+    null_rays(&gathered->shadow_rays);
     const mask missed = NOT(hits->some);
     if (ANY(missed)) {
         Vector light;

@@ -66,7 +66,15 @@ INLINE void store_rays(const Rays* rays, global Ray* to, const uint* index, uint
     store_rows8(row, to->origin, 8, index, count);
 }
 
-/// Rays that meet nothing, where `condition` holds.
+/// Rays that meet nothing.
+INLINE void null_rays(Rays* rays) {
+    const real zero = 0.0f;
+    const Rays none = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
+    *rays = none;
+}
+
+/// The same where `condition` holds. The rays have values before: compilers take a path on which select() is handed what has
+/// none for one that is never taken.
 INLINE void clear_rays(mask condition, Rays* rays) {
     const real zero = 0.0f;
     const Vector none = {zero, zero, zero};
