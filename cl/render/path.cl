@@ -30,6 +30,7 @@ INLINE void find_beam(global const CameraRecord* camera, const PathSettings* set
                       mask first, real width, Beam* beam) {
 #if TEXTURES
     cone_beam(direction, width, beam);
+    beam->exact_light = NOT(first);
     if (!ANY(first)) return;
     Beam of_pixel;
     pixel_beam(camera, direction, t, 1.0f / sqrt((float)settings->samples), &of_pixel);

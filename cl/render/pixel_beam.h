@@ -16,6 +16,7 @@ INLINE void pixel_beam(global const CameraRecord* camera, const Vector* directio
     spread3(vload3(0, camera->up), &beam->y);
     scale3(width, &beam->x);
     scale3(width, &beam->y);
+    beam->exact_light = (mask)(0);
 }
 
 #endif

@@ -24,6 +24,9 @@ typedef struct ShadingPoint {
 /// other, for a pixel those to its neighbours (Igehy 1999). Read for textures only.
 typedef struct Beam {
     Vector x, y;
+    /// Emission and alpha are read as under a beam without width: lights and shadow rays read them so, and what both find must be
+    /// the same. (Cut-outs have another size when they are filtered.)
+    mask exact_light;
 } Beam;
 
 INLINE void material_numbers(const SceneArrays* scene, const Triangles* triangles, uint* material) {
@@ -87,6 +90,10 @@ INLINE void find_spots(const Triangles* triangles, const uint* material, const V
     (void)direction;
     (void)beam;
 #endif
+#if TEXTURES
+    int exact_light[LANES];
+    STORE_LANES(beam->exact_light, exact_light);
+#endif
     for (uint lane = 0; lane < LANES; ++lane) {
         spots[lane].corner = (uint3)(triangles->corner[0][lane], triangles->corner[1][lane], triangles->corner[2][lane]);
         spots[lane].weight = (float3)(1.0f - u[lane] - v[lane], u[lane], v[lane]);
@@ -94,6 +101,9 @@ INLINE void find_spots(const Triangles* triangles, const uint* material, const V
 #if UV_SETS
         spots[lane].weight_x = (float2)(change_x[0][lane], change_x[1][lane]);
         spots[lane].weight_y = (float2)(change_y[0][lane], change_y[1][lane]);
+#endif
+#if TEXTURES
+        spots[lane].exact_light = exact_light[lane] != 0;
 #endif
     }
 }
@@ -210,7 +220,9 @@ INLINE whole load_material(const SceneArrays* scene, const uint* material, Shadi
 /// A texture of each lane's material; channel by channel.
 INLINE void textures_at(const SceneArrays* scene, const Spot* spots, uint which, float texel[3][LANES]) {
     for (uint lane = 0; lane < LANES; ++lane) {
-        const float4 t = texture_at(scene, spots + lane, scene->materials[spots[lane].material].textures + which);
+        Spot spot = spots[lane];
+        if (which == BOXWOOD_EMISSION) light_spot(spots + lane, &spot);
+        const float4 t = texture_at(scene, &spot, scene->materials[spot.material].textures + which);
         texel[0][lane] = t.x;
         texel[1][lane] = t.y;
         texel[2][lane] = t.z;
@@ -251,7 +263,14 @@ INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* 
 #endif
     point->alpha = 1.0f;
     if (!ANY((flags & (BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND)) != 0)) return;
-    for (uint lane = 0; lane < LANES; ++lane) alpha[lane] = stopped_share(scene->materials + material[lane], alpha[lane]);
+    for (uint lane = 0; lane < LANES; ++lane) {
+#if TEXTURES
+        Spot spot;
+        light_spot(spots + lane, &spot);
+        if (spot.exact_light) alpha[lane] = color_at(scene, &spot).w;
+#endif
+        alpha[lane] = stopped_share(scene->materials + material[lane], alpha[lane]);
+    }
     point->alpha = LOAD_LANES(alpha);
 }
 

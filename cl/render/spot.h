@@ -18,6 +18,9 @@ typedef struct Spot {
     // Change of the second and third weight along the two vectors of a beam.
     float2 weight_x, weight_y;
 #endif
+#if TEXTURES
+    bool exact_light; ///< See Beam.
+#endif
 } Spot;
 
 /// The spot of weights (1 - u - v, u, v) under a beam without width.
@@ -32,6 +35,9 @@ INLINE void spot_of(const SceneArrays* scene, uint instance, uint primitive, flo
 #endif
 #if UV_SETS
     spot->weight_x = spot->weight_y = (float2)(0.0f);
+#endif
+#if TEXTURES
+    spot->exact_light = true;
 #endif
 }
 
@@ -59,6 +65,14 @@ INLINE float4 texture_at(const SceneArrays* scene, const Spot* spot, global cons
     return sample_texture(scene->textures + input->texture, scene->texels,
                           (float2)(dot(u, uv) + rows[2], dot(v, uv) + rows[5]),
                           (float2)(dot(u, along_x), dot(v, along_x)), (float2)(dot(u, along_y), dot(v, along_y)));
+}
+#endif
+
+#if TEXTURES
+/// The spot as emission and alpha are read at it.
+INLINE void light_spot(const Spot* spot, Spot* at) {
+    *at = *spot;
+    if (spot->exact_light) at->weight_x = at->weight_y = (float2)(0.0f);
 }
 #endif
 

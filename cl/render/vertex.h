@@ -33,6 +33,7 @@ INLINE void cone_beam(const Vector* direction, real width, Beam* beam) {
     tangents_of(direction, &beam->x, &beam->y);
     scale3(width, &beam->x);
     scale3(width, &beam->y);
+    beam->exact_light = (mask)(0);
 }
 
 /// From `point` and the rays' `direction`, which is normalised.

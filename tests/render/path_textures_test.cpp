@@ -33,7 +33,7 @@ Scene under_square(const Material& material, const std::vector<std::uint8_t>& le
     scene.meshes.back().uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     std::vector<std::uint8_t> texels = left;
     texels.insert(texels.end(), right.begin(), right.end());
-    scene.images = {image("halves", {2, 1}, texels)};
+    if (!texels.empty()) scene.images = {image("halves", {2, 1}, texels)};
     scene.textures = {{0, Wrap::clamp, Wrap::clamp, true}};
     return scene;
 }
@@ -61,7 +61,8 @@ void check_halves(const Scene& scene, double left, double right) {
         const Estimate found =
             estimate(test_device(), lit, camera_above(half, 0.5f), {across, across}, options, small_sizes() ? 3 : 12);
         CAPTURE(found.error / expected);
-        CHECK(std::abs(found.mean - expected) < 3 * found.error + (small_sizes() ? 0.3 : 1e-3) * expected);
+        // Of 12 pictures the error itself is known to a fifth: four of them are passed once in 500 times.
+        CHECK(std::abs(found.mean - expected) < 4 * found.error + (small_sizes() ? 0.3 : 1e-3) * expected);
         if (!small_sizes()) CHECK(found.error < 0.0066 * expected);
     }
 }
@@ -81,6 +82,19 @@ TEST_CASE("path: a lamp that is cut out, or let light pass, by its texture shine
     check_halves(under_square(material, {9, 9, 9, 100}, {9, 9, 9, 200}), 0.0, 3.0);
     material.alpha_mode = AlphaMode::blend;
     check_halves(under_square(material, {9, 9, 9, 51}, {9, 9, 9, 153}), 3.0 * 0.2, 3.0 * 0.6);
+}
+
+TEST_CASE("path: a lamp that is finely cut out shines with half its light, however it is found") {
+    Material material = lamp(glm::vec3(3.0f));
+    material.base_color_texture.texture = 0;
+    material.alpha_mode = AlphaMode::mask;
+    Scene scene = under_square(material, {}, {});
+    const std::uint32_t size = 32;
+    std::vector<std::uint8_t> checks;
+    for (std::uint32_t i = 0; i < size * size; ++i)
+        checks.insert(checks.end(), {9, 9, 9, static_cast<std::uint8_t>((i + i / size) % 2 == 0 ? 0 : 200)});
+    scene.images = {image("checks", {size, size}, checks)};
+    check_halves(scene, 1.5, 1.5);
 }
 
 TEST_CASE("path: the shadow of a fence that is cut out of a texture, texel by texel") {
