@@ -69,7 +69,7 @@ Environment load_environment(const std::filesystem::path& file, std::vector<std:
                 ++replaced;
             }
     if (replaced > 0)
-        warnings.push_back(file.string() + ": " + std::to_string(replaced) +
+        warnings.push_back(std::to_string(replaced) +
                            " values that are no radiance are 0, or 2^60 where they are larger");
     return environment;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/appearance_textures.hpp"
 
+#include <algorithm>
 #include <new>
 #include <span>
 
@@ -19,8 +20,17 @@ bool is_color(std::size_t place) { return place == BOXWOOD_BASE_COLOR || place =
 
 std::uint32_t wrap_number(Wrap wrap) { return wrap == Wrap::repeat ? 0 : wrap == Wrap::mirror ? 1 : 2; }
 
-std::string label(const Scene& scene, std::uint32_t image) {
-    return "images[" + std::to_string(image) + "] (" + scene.images[image].name + ")";
+/// "images[2] (wood.png): REASON; shown as grey", once for all uses of the image.
+void warn(const Scene& scene, std::uint32_t image, const std::string& reason, std::vector<std::string>& warnings) {
+    const std::string line =
+        "images[" + std::to_string(image) + "] (" + scene.images[image].name + "): " + reason + "; shown as grey";
+    if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
+}
+
+/// What is wrong with an image, without its name.
+std::string reason_of(const InputError& error) {
+    const std::string text = error.what(), name = error.file + ": ";
+    return text.starts_with(name) ? text.substr(name.size()) : text;
 }
 
 } // namespace
@@ -58,15 +68,16 @@ std::size_t TextureSet::add_source(std::uint32_t image, bool srgb, std::vector<s
         const PictureSize size = picture_size(scene_.images[image]);
         // Each replaced picture behind this one has its texel, too.
         if (std::uint64_t{size.width} * size.height > most_texels || texel_count_ + level_texels(size) > most_texels) {
-            warnings.push_back(label(scene_, image) + ": " + std::to_string(size.width) + " x " +
-                               std::to_string(size.height) +
-                               " pixels are more than there is room for in all textures, 2^28; shown as grey");
+            warn(scene_, image,
+                 std::to_string(size.width) + " x " + std::to_string(size.height) +
+                     " pixels are more than there is room for in all textures, 2^28",
+                 warnings);
         } else {
             source.size = size;
             source.replaced = false;
         }
     } catch (const InputError& error) {
-        warnings.push_back(label(scene_, image) + ": " + error.what() + "; shown as grey");
+        warn(scene_, image, reason_of(error), warnings);
     }
     texel_count_ += level_texels(source.size);
     sources_.push_back(source);
@@ -86,7 +97,7 @@ void TextureSet::decode(Device& device, BufferView<std::uint32_t> texels, std::v
     for (Source& source : sources_) {
         std::vector<std::uint32_t> levels{grey_texel};
         const auto replace = [&](const std::string& reason) {
-            warnings.push_back(label(scene_, source.image) + ": " + reason + "; shown as grey");
+            warn(scene_, source.image, reason, warnings);
             source.replaced = true;
             source.size = {1, 1};
             source.mean = grey_mean;
@@ -98,7 +109,7 @@ void TextureSet::decode(Device& device, BufferView<std::uint32_t> texels, std::v
                 levels = texture_levels(picture, source.srgb);
             }
         } catch (const InputError& error) {
-            replace(error.what());
+            replace(reason_of(error));
         } catch (const std::bad_alloc&) {
             replace("needs more memory than there is");
         }

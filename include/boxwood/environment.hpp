@@ -24,7 +24,7 @@ struct Environment {
 Environment default_sky();
 
 /// Reads R, G, B of an OpenEXR file as such a picture. Negative values and NaN become 0, larger ones and infinity
-/// largest_radiance, counted in one line of `warnings`. Throws InputError when the file cannot be read, lacks a channel, or has more than 2^26 pixels.
+/// largest_radiance, counted in one line of `warnings`, which does not repeat the name. Throws InputError when the file cannot be read, lacks a channel, or has more than 2^26 pixels.
 Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 } // namespace boxwood

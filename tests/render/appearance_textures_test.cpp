@@ -110,8 +110,9 @@ TEST_CASE("pictures that cannot be read are grey, or flat, and named") {
         scene.images = {bad};
         std::vector<std::string> warnings;
         const Appearance appearance = appearance_of(scene, warnings);
-        CHECK(warnings.size() >= 1);
-        for (const std::string& warning : warnings) CHECK(warning.find(bad.name) != std::string::npos);
+        REQUIRE(warnings.size() == 1); // for both uses
+        CHECK(warnings[0].starts_with("images[0] (" + bad.name + "): "));
+        CHECK(warnings[0].find(bad.name) == warnings[0].rfind(bad.name));
         const auto records = download(test_device(), appearance.textures);
         REQUIRE(records.size() == 2);
         CHECK(records[0].width == 1);
