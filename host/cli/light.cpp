@@ -58,6 +58,7 @@ bool lit(const ShadingRequirements& scene, Integrator integrator) {
 
 LightOptions LightChoice::chosen() const {
     LightOptions chosen = options;
+    if (spp->count() == 0 && chosen.integrator == Integrator::cost) chosen.samples = 1;     // as its preview shows them
     if (depth->count() == 0 && chosen.integrator == Integrator::ambient) chosen.depth = 2;  // dissertation 3.7.7
     if (chosen.integrator == Integrator::direct) chosen.depth = std::min(chosen.depth, 1u); // what is reported
     return chosen;
@@ -71,10 +72,11 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
         "occluded ambient light; ao: ambient occlusion; normals; cost: heat map of the bounding volumes tested");
     add_words(command, "--primary", options.primary, to_primary,
               "What the camera sees is found by rays (default) or by the rasteriser (raster)");
-    command
-        .add_option("--spp", options.samples, "Samples per pixel (default: " + std::to_string(options.samples) + ")")
-        ->check(CLI::Range(1u, 1u << 20))
-        ->type_name("N");
+    choice.spp = command
+                     .add_option("--spp", options.samples,
+                                 "Samples per pixel (default: " + std::to_string(options.samples) + ", of cost 1)")
+                     ->check(CLI::Range(1u, 1u << 20))
+                     ->type_name("N");
     choice.depth = command
                        .add_option("--depth", options.depth,
                                    "Bounces of light, 0 to 64 (default: " + std::to_string(options.depth) +

@@ -16,8 +16,9 @@ namespace boxwood::cli {
 struct LightChoice {
     LightOptions options;
     CLI::Option* depth = nullptr;
+    CLI::Option* spp = nullptr;
 
-    /// The options, with the integrator's own depth where none was given.
+    /// The options, with the integrator's own depth and samples where none were given.
     LightOptions chosen() const;
 };
 void add_light_options(CLI::App& command, LightChoice& choice);

@@ -72,6 +72,11 @@ RenderOptions render_options(const Arguments& arguments) {
     return options;
 }
 
+/// Whether a preview is of light, which has an exposure, not of numbers.
+bool shows_light(Integrator integrator) {
+    return integrator == Integrator::path || integrator == Integrator::direct || integrator == Integrator::ambient;
+}
+
 /// Light by the tone curve, other values as they are, costs as a heat map.
 void save_preview(const Arguments& arguments, Integrator integrator, const Image& image, Json& report) {
     if (integrator == Integrator::cost) {
@@ -80,7 +85,7 @@ void save_preview(const Arguments& arguments, Integrator integrator, const Image
         save_png(arguments.preview(), image.width, image.height, map.rgb);
         return;
     }
-    const bool light = integrator != Integrator::ao && integrator != Integrator::normals;
+    const bool light = shows_light(integrator);
     PreviewOptions options{0.0f, light};
     if (light)
         report["exposure"] = options.exposure = arguments.exposure ? *arguments.exposure : suitable_exposure(image);
@@ -124,8 +129,9 @@ double samples_per_s(const RenderOptions& options, const RenderWork& work) {
 }
 
 /// Renders, writes the pictures, and says what there is to report of them.
-Result render_pictures(Device& device, const Arguments& arguments, const RenderOptions& options, Render& render,
-                       const InterruptGuard& guard, Progress& progress) {
+Result render_pictures(Device& device, const Arguments& arguments, const RenderOptions& options,
+                       const std::string& environment, Render& render, const InterruptGuard& guard,
+                       Progress& progress) {
     if (arguments.resume) resume(render, arguments.checkpoint());
     device.take_profile();
     Result result;
@@ -135,6 +141,7 @@ Result render_pictures(Device& device, const Arguments& arguments, const RenderO
     progress.step("writing " + arguments.output.string());
     Image image = render.image();
     image.attributes["scene"] = arguments.input.stem().string();
+    image.attributes["environmentName"] = environment;
     result.rejected = render.rejected_samples();
     result.report = {{"image", arguments.output.string()},
                      {"preview", arguments.preview().string()},
@@ -163,7 +170,7 @@ void print_summary(const Arguments& arguments, const RenderOptions& options, con
     std::cout << arguments.output.string() << ": " << options.width << " x " << options.height << ", "
               << name(integrator) << ", " << result.work.samples << " samples per pixel, camera \"" << camera.name
               << '"';
-    if (integrator != Integrator::normals && integrator != Integrator::cost && integrator != Integrator::ao)
+    if (shows_light(integrator))
         std::cout << ", environment " << around.name
                   << (around.name == "sky" && arguments.environment.empty() ? " (nothing else lights the scene)" : "");
     std::cout << "; " << std::fixed << std::setprecision(1) << result.work.ms << " ms, " << std::setprecision(2)
@@ -197,8 +204,19 @@ void check_distinct(const Arguments& arguments) {
     }
 }
 
+/// Throws UsageError for options that the integrator would not heed.
+void check_options(const Arguments& arguments) {
+    const Integrator integrator = arguments.light.options.integrator;
+    const std::string word(name(integrator));
+    if (arguments.exposure && !shows_light(integrator))
+        throw UsageError("--exposure: the preview of " + word + " shows no light; leave it out");
+    if (arguments.ao_distance && !has(integrator, Aov::ao))
+        throw UsageError("--ao-distance: the integrator " + word + " has no ambient occlusion; leave it out");
+}
+
 void check(const Arguments& arguments) {
     arguments.choice.check();
+    check_options(arguments);
     check_output(arguments.output, ".exr");
     check_distinct(arguments);
     check_output(arguments.preview(), ".png");
@@ -246,14 +264,15 @@ void run(const Arguments& arguments) {
         print_warnings(arguments.environment, around.warnings);
     }
     const InterruptGuard guard; // until all is written: a signal meanwhile cuts no output off
-    const Result result = render_pictures(device, arguments, options, render, guard, progress);
+    const Result result = render_pictures(device, arguments, options, around.name, render, guard, progress);
 
     std::vector<std::string> query = words(needs);
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
         query.push_back("statistics");
     Json report = base_report(device, input, prepared, query);
-    for (const std::vector<std::string>* warnings : {&render.warnings(), &around.warnings})
-        for (const std::string& warning : *warnings) report["scene"]["warnings"].push_back(warning);
+    for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
+    for (const std::string& warning : around.warnings)
+        report["scene"]["warnings"].push_back(around.name + ": " + warning);
     report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;
     report["render"] = result.report;
@@ -289,8 +308,9 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
                    "World units at which a surface occludes by e^-1, for ambient and ao (default: a tenth of the "
                    "scene's diagonal)")
         ->check(number_within(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()));
-    app.add_option("--exposure", arguments.exposure,
-                   "Stops by which the preview is brighter (default: what suits the picture)")
+    app.add_option(
+           "--exposure", arguments.exposure,
+           "Stops by which the preview of path, direct and ambient is brighter (default: what suits the picture)")
         ->check(number_within(-64.0, 64.0))
         ->type_name("STOPS");
     std::vector<std::string> names = {"all"};

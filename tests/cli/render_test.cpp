@@ -57,6 +57,10 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     check_failure(tool.run(render + "--spp 0"), 2, "--spp");
     check_failure(tool.run(render + "--depth 65"), 2, "--depth");
     check_failure(tool.run(render + "--exposure bright"), 2, "--exposure");
+    for (const std::string integrator : {"ao", "normals", "cost"})
+        check_failure(tool.run(render + "--exposure 1 --integrator " + integrator), 2, "--exposure");
+    for (const std::string integrator : {"path", "direct", "normals", "cost"})
+        check_failure(tool.run(render + "--ao-distance 1 --integrator " + integrator), 2, "--ao-distance");
     check_failure(tool.run(render + "--ao-distance 0"), 2, "--ao-distance");
     check_failure(tool.run(render + "--checkpoint -1"), 2, "--checkpoint");
     for (const std::string word : {"nan", "inf", "-inf"})
@@ -142,6 +146,25 @@ TEST_CASE("render tool: the sky lights a scene only when nothing else does, and 
     CHECK(tool.succeed(render + "--environment 1,0.5,0.5").out.find("environment constant") != std::string::npos);
     tool.succeed(render + "--environment light.exr --report x.json");
     CHECK(Json::parse(tool.contents("x.json"))["options"]["environment"] == "light.exr");
+}
+
+TEST_CASE("render tool: a warning about the environment names it once, and costs take one sample of their own accord") {
+    const Tool tool;
+    tool.succeed("scene sphere -o sphere.glb");
+    std::vector<float> ones(8, 1.0f);
+    ones[3] = -1.0f;
+    save_exr(tool.file("light.exr"), {4, 2, {{"R", ones}, {"G", ones}, {"B", ones}}});
+    const std::string render = "render sphere.glb -o x.exr --resolution 4x4 --report x.json ";
+    CHECK(tool.succeed(render + "--spp 1 --environment light.exr").err ==
+          "boxwood: warning: light.exr: 3 values that are no radiance are 0, or 2^60 where they are larger\n");
+    CHECK(Json::parse(tool.contents("x.json"))["scene"]["warnings"].back() ==
+          "light.exr: 3 values that are no radiance are 0, or 2^60 where they are larger");
+    CHECK(tool.contents("x.exr").find("light.exr") != std::string::npos); // in the header
+    for (const auto& [words, samples] :
+         {std::pair{"--integrator cost", 1}, {"--integrator cost --spp 3", 3}, {"--integrator normals", 16}}) {
+        tool.succeed(render + words);
+        CHECK(Json::parse(tool.contents("x.json"))["options"]["spp"] == samples);
+    }
 }
 
 TEST_CASE("render tool: an eye and a target are a camera") {
