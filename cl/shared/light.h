@@ -17,8 +17,8 @@ typedef struct LightRecord {
     uint kind;
     float direction[3]; ///< Where the light goes, normalised. Spot, directional; of a triangle its front's unit normal.
     float range;        ///< Point, spot.
-    float intensity
-        [3]; ///< Per steradian (point, spot), irradiance (directional), radiance (triangle, before its texture).
+    /// Per steradian (point, spot), irradiance (directional), or radiance before its texture (triangle).
+    float intensity[3];
     float inverse_size; ///< Triangle: 1 / sqrt(area), world space.
     float edges[2][3];  ///< Triangle: from the first vertex to the others, world space.
     // Spot: intensity times clamp((1 - scale^2 (1 - cosine)) * edge, 0, 1)^2, as KHR_lights_punctual has it, written so that

@@ -20,8 +20,8 @@ NodeHeights node_heights(Device& device, const Topology& topology);
 /// The inner nodes of a forest by height: height 1 is above leaves alone, and a node comes after both of its children.
 struct NodeLevels {
     Buffer<std::uint32_t> nodes; ///< Ascending by height, then by index; unused slots come first.
-    std::vector<std::uint32_t>
-        starts; ///< starts[h] .. starts[h + 1] - 1 are the nodes of height h, 1 <= h <= height().
+    /// starts[h] .. starts[h + 1] - 1 are the nodes of height h, 1 <= h <= height().
+    std::vector<std::uint32_t> starts;
 
     std::uint32_t height() const { return static_cast<std::uint32_t>(starts.size()) - 2; }
 };

@@ -56,8 +56,8 @@ struct TreeRecord {
     std::uint32_t levels; ///< 1 or 2
     std::uint32_t bottom_depth;
     std::uint32_t top_depth;
-    std::uint32_t
-        bounds; ///< 0 aabb, 1 obb-points, 2 obb-boxes, 3 obb-quaternion, 4 obb-cascade, 5 obb-moments, 6 obb-refined
+    /// 0 aabb, 1 obb-points, 2 obb-boxes, 3 obb-quaternion, 4 obb-cascade, 5 obb-moments, 6 obb-refined
+    std::uint32_t bounds;
 };
 static_assert(sizeof(TreeRecord) == 20);
 

@@ -17,8 +17,8 @@ struct BuildOptions {
     Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
     MortonBits morton = MortonBits::bits30;
     BoundsOptions bounds = {}; ///< Oriented boxes need the binary layout.
-    bool measure_overlap =
-        false; ///< Fill BuildReport::overlap, which may take longer than the build; binary layout only.
+    /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.
+    bool measure_overlap = false;
 };
 
 /// Sums over the boxes of all binary nodes of one level, leaves included.

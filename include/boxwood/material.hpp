@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What surfaces are made of and what lights a scene, as glTF 2.0 has them (sections 3.8, 3.9 and the extensions
-// KHR_materials_emissive_strength, KHR_materials_unlit, KHR_texture_transform, KHR_lights_punctual).
+// KHR_materials_emissive_strength, KHR_materials_specular, KHR_materials_unlit, KHR_texture_transform, KHR_lights_punctual).
 #pragma once
 
 #include <cstddef>
@@ -57,10 +57,9 @@ struct Material {
     glm::vec4 base_color{1.0f}; ///< [0, 1]; the last is alpha.
     float metallic = 1.0f;      ///< [0, 1]
     float roughness = 1.0f;     ///< [0, 1], perceptual: alpha of GGX is its square.
-    float specular =
-        1.0f; ///< [0, 1], KHR_materials_specular: strength of a dielectric's reflection; 0 is pure Lambert.
-    glm::vec3 emission{
-        0.0f}; ///< Radiance, factor times strength, within [0, largest_radiance]. From the front, from both when double_sided.
+    float specular = 1.0f;      ///< [0, 1]: strength of a dielectric's reflection; 0 is pure Lambert.
+    /// Radiance, factor times strength, within [0, largest_radiance]: of the front, of both sides when double_sided.
+    glm::vec3 emission{0.0f};
     float normal_scale = 1.0f;       ///< Of the x and y of the normal texture; within largest_coordinate.
     float occlusion_strength = 1.0f; ///< [0, 1]; read by the G-buffer and the ambient integrator only.
     AlphaMode alpha_mode = AlphaMode::opaque;
@@ -79,8 +78,9 @@ enum class LightKind { point, spot, directional };
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 intensity{
-        1.0f}; ///< Colour times intensity, within [0, largest_radiance] and not all zero: per steradian (point, spot), irradiance (directional).
+    /// Colour times intensity, within [0, largest_radiance] and not all zero: per steradian (point, spot) or irradiance
+    /// (directional).
+    glm::vec3 intensity{1.0f};
     glm::vec3 position{0.0f};                             ///< Point, spot.
     glm::vec3 direction{0.0f, 0.0f, -1.0f};               ///< Where the light goes, normalised. Spot, directional.
     float range = std::numeric_limits<float>::infinity(); ///< > 0; nothing beyond it is lit. Point, spot.

@@ -12,8 +12,7 @@ namespace boxwood {
 
 /// Size and seed of a procedural scene; 0 means the kind's own default.
 struct ProceduralOptions {
-    std::uint64_t triangles =
-        0; ///< Wanted number of stored triangles; reached from below as closely as the shape allows.
+    std::uint64_t triangles = 0; ///< Wanted to be stored; reached from below as closely as the shape allows.
     std::uint64_t instances = 0; ///< Wanted number of instances, for the kinds that have them.
     std::uint64_t seed = 1;
 };
