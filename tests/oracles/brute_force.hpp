@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Closest hits without a tree: every ray against every triangle.
+// Closest hits without a tree: every ray against every triangle that is not far from its line.
 #pragma once
 
 #include <array>
@@ -30,13 +30,20 @@ public:
     std::vector<Hit> closest_hits(std::span<const Ray> rays) const;
 
 private:
+    /// A sphere around a block of triangles.
+    struct Ball {
+        glm::dvec3 middle;
+        double radius;
+    };
     /// Vertices as structure of arrays: v0, edge1, edge2, each x, y, z. Padded with zero-area triangles.
     struct Soup {
         std::size_t count = 0;
         std::array<std::vector<float>, 9> columns;
+        std::vector<Ball> balls; ///< Of consecutive blocks; none when every ray is to meet all triangles.
     };
     struct Local;
 
+    static std::vector<Ball> make_balls(const std::vector<std::array<glm::vec3, 3>>& triangles);
     static Soup make_soup(const std::vector<std::array<glm::vec3, 3>>& triangles);
     void search(const Local& ray, std::uint32_t instance, Hit& best) const;
 

@@ -40,6 +40,46 @@ std::vector<Ray> scaled(std::vector<Ray> rays, int k) {
 
 } // namespace
 
+TEST_CASE("brute force: of many triangles, the hit that double precision finds among all") {
+    // Clusters, so that most blocks of triangles are far from a ray, and instances that are turned, stretched and mirrored.
+    Random random(22);
+    Scene scene = instanced_scene(random, 2, small_sizes() ? 2 : 5, 0);
+    for (Mesh& mesh : scene.meshes) {
+        mesh = {};
+        for (std::uint32_t cluster = 0; cluster < 8; ++cluster) {
+            const glm::vec3 middle(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+            for (const glm::vec3& p : random_mesh(random, 128, 0.3f).positions)
+                mesh.positions.push_back(middle + 0.2f * p);
+        }
+        for (std::uint32_t i = 0; i < mesh.positions.size(); i += 3) mesh.triangles.emplace_back(i, i + 1, i + 2);
+    }
+    const std::vector<Ray> rays = random_rays(random, small_sizes() ? 50 : 1000, 2.0f);
+    std::vector<std::array<glm::vec3, 3>> all;
+    for (const Instance& instance : scene.instances)
+        for (const auto& triangle : world_corners(scene, instance)) all.push_back(triangle);
+    const BruteForce one(scene, Levels::one), two(scene, Levels::two);
+    std::size_t hits = 0, wrong = 0;
+    for (const Ray& ray : rays) {
+        // The closest, and the closest of those that roundings at edges cannot take away.
+        double closest = ray.t_max, safe = ray.t_max;
+        for (const auto& triangle : all) {
+            const auto exact = intersect_in_double(ray, triangle);
+            if (!exact) continue;
+            const auto [t, u, v] = *exact;
+            if (t <= double{ray.t_min} * (1 - 1e-4) || t > double{ray.t_max}) continue;
+            closest = std::min(closest, t);
+            if (std::min({u, v, 1 - u - v}) > 1e-3 && t > double{ray.t_min} * (1 + 1e-4)) safe = std::min(safe, t);
+        }
+        for (const BruteForce* brute : {&one, &two}) {
+            const Hit hit = brute->closest_hit(ray);
+            hits += hit.primitive != BOXWOOD_NONE;
+            wrong += hit.t < closest * (1 - 1e-4) || (safe < ray.t_max * (1 - 1e-4) && hit.t > safe * (1 + 1e-4));
+        }
+    }
+    CHECK(hits > rays.size() / 4);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("ray triangle: agrees with double precision") {
     Random random(20);
     const std::uint32_t count = small_sizes() ? 100 : 4000;
