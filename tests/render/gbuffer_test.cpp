@@ -156,6 +156,31 @@ struct Oracle {
         return w.x * Double(attribute[corner.x]) + w.y * Double(attribute[corner.y]) +
                w.z * Double(attribute[corner.z]);
     }
+    /// The largest magnitude that meets in a point of the triangle, in world space.
+    double magnitude() const {
+        double most = 0.0;
+        for (int row = 0; row < 3; ++row)
+            for (int i = 0; i < 3; ++i) {
+                double sum = std::fabs(to_world[3][row]);
+                for (int c = 0; c < 3; ++c) sum += std::fabs(to_world[c][row] * mesh.positions[corner[i]][c]);
+                most = std::max(most, sum);
+            }
+        return most;
+    }
+    /// By how much a direction's relative error may grow on its way to world space.
+    double stretch() const {
+        const glm::dmat3 m(to_world), inverse = glm::inverse(m);
+        const auto square = [](const glm::dmat3& each) {
+            return glm::dot(each[0], each[0]) + glm::dot(each[1], each[1]) + glm::dot(each[2], each[2]);
+        };
+        return std::sqrt(square(m) * square(inverse));
+    }
+    /// The same for the triangle's normal, which is longer than its edges' product only by the sine between them.
+    double slant() const {
+        const glm::dvec3 a(mesh.positions[corner.y] - mesh.positions[corner.x]);
+        const glm::dvec3 b(mesh.positions[corner.z] - mesh.positions[corner.x]);
+        return glm::length(a) * glm::length(b) / glm::length(glm::cross(a, b)) * stretch();
+    }
     glm::dvec3 position() const { return weight.x * world[0] + weight.y * world[1] + weight.z * world[2]; }
     /// Where the plane of the triangle is met, as weights.
     glm::dvec3 weights_at(const glm::dvec3& origin, const glm::dvec3& direction) const {
@@ -163,8 +188,10 @@ struct Oracle {
             glm::inverse(glm::dmat3(world[1] - world[0], world[2] - world[0], -direction)) * (origin - world[0]);
         return {1.0 - v.x - v.y, v.x, v.y};
     }
-    glm::dvec3 shading_normal() const {
-        const glm::dvec3 n = glm::normalize(interpolate(mesh.normals, weight));
+    /// `growth`: that of roundings on the way.
+    glm::dvec3 shading_normal(double& growth) const {
+        const glm::dvec3 between = interpolate(mesh.normals, weight), n = glm::normalize(between);
+        growth = stretch() / glm::length(between);
         const glm::dmat3 linear_part(to_world);
         const glm::dvec3 straight = glm::normalize(glm::transpose(glm::inverse(linear_part)) * n);
         glm::dvec3 bent = straight;
@@ -173,20 +200,31 @@ struct Oracle {
             const glm::dvec3 t = glm::normalize(glm::dvec3(both));
             const glm::dvec3 b = double{mesh.tangents[corner.x].w} * glm::cross(n, t);
             const double scale = material.normal_scale;
-            bent = glm::normalize(scale * (2.0 * bump_texel[0] / 255 - 1.0) * glm::normalize(linear_part * t) +
-                                  scale * (2.0 * bump_texel[1] / 255 - 1.0) * glm::normalize(linear_part * b) +
-                                  (2.0 * bump_texel[2] / 255 - 1.0) * straight);
+            const glm::dvec3 sum = scale * (2.0 * bump_texel[0] / 255 - 1.0) * glm::normalize(linear_part * t) +
+                                   scale * (2.0 * bump_texel[1] / 255 - 1.0) * glm::normalize(linear_part * b) +
+                                   (2.0 * bump_texel[2] / 255 - 1.0) * straight;
+            bent = glm::normalize(sum);
+            growth = (growth + stretch() / glm::length(glm::dvec3(both))) / glm::length(b) / glm::length(sum);
         }
         return glm::dot(straight, normal) < 0.0 ? -bent : bent;
     }
-    /// Texture coordinates of the colour, in texels.
-    glm::dvec2 texel() const {
+    /// Texture coordinates of the colour, in texels; `magnitude`: the largest that meets in them.
+    glm::dvec2 texel(double& magnitude) const {
         const TextureUse& use = material.base_color_texture;
+        magnitude = 0.0;
+        for (int i = 0; i < 3; ++i)
+            for (int row = 0; row < 2; ++row) {
+                const glm::vec3 uv(mesh.uvs[use.uv_set][corner[i]], 1.0f);
+                double sum = 0.0;
+                for (int c = 0; c < 3; ++c)
+                    sum += texture_size * std::fabs(double{use.transform[c][row]} * double{uv[c]});
+                magnitude = std::max(magnitude, sum);
+            }
         const glm::dvec2 uv = interpolate(mesh.uvs[use.uv_set], weight);
         return double{texture_size} * glm::dvec2(glm::dmat3(use.transform) * glm::dvec3(uv, 1.0));
     }
-    glm::dvec3 albedo(const Picture& picture) const {
-        const glm::dvec2 at = glm::floor(texel());
+    glm::dvec3 albedo(const Picture& picture, glm::dvec2 at) const {
+        at = glm::floor(at);
         constexpr int n = texture_size;
         const int x = ((static_cast<int>(at.x) % n) + n) % n;
         int y = ((static_cast<int>(at.y) % (2 * n)) + 2 * n) % (2 * n);
@@ -206,18 +244,25 @@ double off(const std::vector<float>& plane, std::size_t pixel, const glm::dvec3&
     return most;
 }
 
-/// The change of the first texture coordinates over a pixel, by the rays a thousandth of a pixel on.
-glm::dvec4 derivatives(const Oracle& oracle, const CameraRecord& camera, const Ray& ray) {
+/// The change of the first texture coordinates over a pixel, by the rays a thousandth of a pixel on. `magnitude`: the largest number
+/// that meets in it.
+glm::dvec4 derivatives(const Oracle& oracle, const CameraRecord& camera, const Ray& ray, double& magnitude) {
     const glm::dvec3 origin = dvec(ray.origin), direction = dvec(ray.direction);
     const glm::dvec3 forward = camera.perspective ? direction / glm::dot(direction, dvec(camera.forward)) : direction;
-    const auto uv_at = [&](const glm::dvec3& step) {
-        const glm::dvec3 w =
-            camera.perspective ? oracle.weights_at(origin, forward + step) : oracle.weights_at(origin + step, forward);
-        return glm::dvec2(oracle.interpolate(oracle.mesh.uvs[0], w));
+    const auto weights_at = [&](const glm::dvec3& step) {
+        return camera.perspective ? oracle.weights_at(origin, forward + step)
+                                  : oracle.weights_at(origin + step, forward);
     };
+    const glm::vec2* uv = oracle.mesh.uvs[0].data();
+    const glm::dvec2 first(uv[oracle.corner.x]);
+    const glm::dvec2 edges[2] = {glm::dvec2(uv[oracle.corner.y]) - first, glm::dvec2(uv[oracle.corner.z]) - first};
+    magnitude = 0.0;
     constexpr double share = 1e-3;
     const auto change = [&](const glm::dvec3& half) {
-        return (uv_at(2.0 * share * half) - uv_at(-2.0 * share * half)) / (2.0 * share);
+        const glm::dvec3 w = (weights_at(2.0 * share * half) - weights_at(-2.0 * share * half)) / (2.0 * share);
+        magnitude =
+            std::max(magnitude, std::fabs(w.y) * glm::length(edges[0]) + std::fabs(w.z) * glm::length(edges[1]));
+        return w.y * edges[0] + w.z * edges[1];
     };
     return {change(dvec(camera.right)), change(dvec(camera.up))};
 }
@@ -248,26 +293,27 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
                 continue;
             }
             const Oracle oracle(shot.scene, rays[i], hits[i]);
-            const double facing = -glm::dot(oracle.normal, dvec(rays[i].direction));
             REQUIRE(planes.materials[i] == oracle.mesh.materials[hits[i].primitive]);
-            REQUIRE(off(planes.positions, i, oracle.position()) < 1e-5);
-            if (facing < 0.05) continue; // triangles this narrow lose digits
-            REQUIRE(off(planes.geometric_normals, i, oracle.normal) < 1e-4);
+            // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of them.
+            constexpr double rounding = 8 * 0x1p-24;
+            double growth = 0.0, magnitude = 0.0;
+            REQUIRE(off(planes.positions, i, oracle.position()) <= rounding * oracle.magnitude());
+            REQUIRE(off(planes.geometric_normals, i, oracle.normal) <= rounding * oracle.slant());
             // Normals away from the eye are bent back; those across the triangle may turn either way.
-            const glm::dvec3 shading = oracle.shading_normal();
+            const glm::dvec3 shading = oracle.shading_normal(growth);
             if (-glm::dot(shading, dvec(rays[i].direction)) > 0.01) {
                 ++bent;
-                REQUIRE(off(planes.shading_normals, i, shading) < 2e-3);
+                REQUIRE(off(planes.shading_normals, i, shading) <= rounding * growth);
             }
-            const glm::dvec2 texel = oracle.texel(), within = glm::abs(texel - glm::round(texel));
-            if (std::min(within.x, within.y) > 1e-4) REQUIRE(off(planes.albedos, i, oracle.albedo(picture)) < 1e-5);
-            const glm::dvec4 change = derivatives(oracle, camera, rays[i]);
-            double wrong = 0.0, size = 0.0;
-            for (int c = 0; c < 4; ++c) {
+            const glm::dvec2 texel = oracle.texel(magnitude), within = glm::abs(texel - glm::round(texel));
+            if (std::min(within.x, within.y) > rounding * magnitude)
+                REQUIRE(off(planes.albedos, i, oracle.albedo(picture, texel)) <= rounding); // of factors up to 1
+            const glm::dvec4 change = derivatives(oracle, camera, rays[i], magnitude);
+            const double facing = -glm::dot(oracle.normal, dvec(rays[i].direction));
+            double wrong = 0.0;
+            for (int c = 0; c < 4; ++c)
                 wrong = std::max(wrong, std::fabs(change[c] - planes.uv_derivatives[4 * i + c]));
-                size = std::max(size, std::fabs(change[c]));
-            }
-            REQUIRE(wrong <= 1e-3 * size);
+            REQUIRE(wrong <= rounding * magnitude * oracle.slant() / facing);
             ++checked;
         }
         CHECK(checked > hits.size() / 16);

@@ -95,6 +95,16 @@ inline Picture take_picture(Device& device, const LitScene& lit, const Camera& c
 /// Mean over the pixels and channels of several pictures of different seeds, and the standard error of that mean.
 struct Estimate {
     double mean = 0.0, error = 0.0;
+    std::uint32_t repeats = 2;
+
+    /// How far from the mean the true one may be: as improbable as three standard errors that are known, though this one comes
+    /// from a few pictures (quantiles of Student's distribution by Wallace 1959, within 2 % from 5 pictures, wider of fewer); and
+    /// roundings, some 64 of each light.
+    double margin() const {
+        const double free = repeats - 1.0, shrunk = free - 2.0 / 3 + 0.1 / free;
+        const double quantile = std::sqrt(free * std::expm1(9.0 * (free - 5.0 / 6) / (shrunk * shrunk)));
+        return quantile * error + 64 * 0x1p-24 * mean;
+    }
 };
 
 struct Estimates {
@@ -106,7 +116,7 @@ inline Estimate estimate_of(const std::vector<double>& values) {
     for (const double value : values) sum += value;
     const double count = double(values.size()), mean = sum / count;
     for (const double value : values) square += (value - mean) * (value - mean);
-    return {mean, std::sqrt(square / (count * (count - 1)))};
+    return {mean, std::sqrt(square / (count * (count - 1))), static_cast<std::uint32_t>(values.size())};
 }
 
 inline Estimates estimates(Device& device, const LitScene& lit, const Camera& camera, const Frame& frame,
