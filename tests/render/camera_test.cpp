@@ -9,6 +9,8 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/rays.hpp"
+#include "render/camera.hpp"
+#include "render/jitter.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -70,6 +72,99 @@ TEST_CASE("camera: perspective rays go through the pixel centres") {
             CHECK(ray.t_min == 0.0f);
             CHECK(ray.t_max == std::numeric_limits<float>::infinity());
         }
+    }
+}
+
+TEST_CASE("camera: a jitter moves all rays by the same part of a pixel") {
+    constexpr std::uint32_t width = 11, height = 7;
+    const glm::vec2 jitter(0.625f, -0.875f);
+    for (const bool perspective : {true, false}) {
+        const Camera camera = turned_camera(perspective);
+        const glm::dmat4 to_world(camera.to_world);
+        const glm::dvec3 right = glm::normalize(glm::dvec3(to_world[0])), up = glm::normalize(glm::dvec3(to_world[1])),
+                         back = glm::normalize(glm::dvec3(to_world[2]));
+        const Buffer<Ray> rays = make_buffer<Ray>(test_device(), width * height, "rays");
+        primary_rays(test_device(), upload_camera(test_device(), camera, width, height, jitter), 0, rays);
+        const std::vector<Ray> found = download(test_device(), rays);
+        const double half = perspective ? std::tan(0.5 * double(camera.vertical_fov)) : double(camera.half_height);
+        for (std::uint32_t i = 0; i < width * height; ++i) {
+            // In half pixels from the picture's middle, to the right and up.
+            const double across = 2.0 * (i % width) + 1.0 + double(jitter.x) - width;
+            const double upward = height - 2.0 * (i / width) - 1.0 + double(jitter.y);
+            const glm::dvec3 offset = half / height * (across * right + upward * up);
+            const glm::dvec3 origin = glm::dvec3(to_world[3]) + (perspective ? glm::dvec3(0.0) : offset);
+            const glm::dvec3 direction = perspective ? glm::normalize(offset - back) : -back;
+            // Some roundings of numbers below 2, of coordinates below 16.
+            CHECK(glm::length(vector(found[i].direction) - direction) < 8 * 0x1p-23);
+            CHECK(glm::length(vector(found[i].origin) - origin) < 16 * 0x1p-23);
+        }
+    }
+}
+
+TEST_CASE("camera: the jitters of a sequence cover the pixel") {
+    LightOptions options;
+    for (const SamplerKind sampler : {SamplerKind::sobol, SamplerKind::stratified})
+        for (const std::uint64_t seed : {std::uint64_t{0}, test_seed()}) {
+            options.sampler = sampler;
+            options.seed = seed;
+            // Any 2^k points that follow one another from a multiple of 2^k: one in each box of 2^-k of the pixel's area,
+            // whatever its shape (a (0, 2)-sequence in base 2). A digital shift moves boxes onto boxes.
+            for (const std::uint32_t k : {4u, 8u})
+                for (const std::uint32_t first : {0u, 3u << k})
+                    for (std::uint32_t wide = 0; wide <= k; ++wide) {
+                        CAPTURE(first);
+                        CAPTURE(wide);
+                        std::vector<int> count(std::size_t{1} << k);
+                        glm::dvec2 sum(0.0);
+                        for (std::uint32_t i = 0; i < count.size(); ++i) {
+                            const glm::dvec2 jitter(camera_jitter(options, first + i));
+                            REQUIRE((std::abs(jitter.x) < 1.0 && std::abs(jitter.y) < 1.0));
+                            const auto column = static_cast<std::size_t>(std::ldexp(0.5 + 0.5 * jitter.x, int(wide)));
+                            const auto row = static_cast<std::size_t>(std::ldexp(0.5 + 0.5 * jitter.y, int(k - wide)));
+                            ++count[(row << wide) + column];
+                            sum += jitter;
+                        }
+                        CHECK(std::count(count.begin(), count.end(), 1) == static_cast<int>(count.size()));
+                        // One in each of n columns 2/n wide, at most half of that from its middle.
+                        CHECK(std::abs(sum.x) <= 1.0);
+                        CHECK(std::abs(sum.y) <= 1.0);
+                    }
+        }
+}
+
+TEST_CASE("camera: random jitters are independent, another seed gives others, one sample takes the centre") {
+    LightOptions options;
+    options.sampler = SamplerKind::random;
+    options.seed = test_seed();
+    constexpr std::uint32_t count = 1u << 14, cells = 8;
+    std::vector<double> in_cell(cells * cells);
+    glm::dvec2 sum(0.0);
+    double product = 0.0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::dvec2 jitter(camera_jitter(options, i));
+        REQUIRE((std::abs(jitter.x) < 1.0 && std::abs(jitter.y) < 1.0));
+        sum += jitter;
+        product += jitter.x * jitter.y;
+        ++in_cell[cells * std::size_t(cells * (0.5 + 0.5 * jitter.y)) + std::size_t(cells * (0.5 + 0.5 * jitter.x))];
+    }
+    // Uniform in (-1, 1): variance 1/3, of a product 1/9. Five standard errors.
+    CHECK(std::abs(sum.x) < 5.0 * std::sqrt(count / 3.0));
+    CHECK(std::abs(sum.y) < 5.0 * std::sqrt(count / 3.0));
+    CHECK(std::abs(product) < 5.0 * std::sqrt(count / 9.0));
+    // chi^2 of 63 degrees of freedom, whose variance is 126: neither clumped nor stratified.
+    double squares = 0.0;
+    for (const double n : in_cell) squares += std::pow(n - count / 64.0, 2) / (count / 64.0);
+    CHECK(std::abs(squares - 63.0) < 5.0 * std::sqrt(126.0));
+
+    for (const SamplerKind sampler : {SamplerKind::sobol, SamplerKind::stratified, SamplerKind::random}) {
+        LightOptions one = options, other = options;
+        one.sampler = other.sampler = sampler;
+        ++other.seed;
+        CHECK(camera_jitter(one, 5) == camera_jitter(one, 5));
+        CHECK(camera_jitter(one, 5) != camera_jitter(one, 6));
+        CHECK(camera_jitter(one, 5) != camera_jitter(other, 5));
+        one.samples = 1;
+        CHECK(camera_jitter(one, 0) == glm::vec2(0.0f));
     }
 }
 

@@ -109,15 +109,18 @@ TEST_CASE(
             plane.triangles.emplace_back(a, b, a + 1);
             plane.triangles.emplace_back(a + 1, b, b + 1);
         }
-    const Mesh sphere = sphere_mesh(small_sizes() ? 6 : 24, false);
+    // Products of edges of 2^-63, of which a finer sphere's would be, are the least that are not denormal: triangles without area.
+    const Mesh fine = sphere_mesh(small_sizes() ? 6 : 24, false), coarse = sphere_mesh(6, false);
     std::size_t rays = 0, by_steps[3] = {0, 0, 0};
-    for (const int k : small_sizes() ? std::vector<int>{-40, 40} : std::vector<int>{-40, -20, -8, 0, 8, 20, 40})
+    for (const int k :
+         small_sizes() ? std::vector<int>{-60, 60} : std::vector<int>{-60, -40, -20, -8, 0, 8, 20, 40, 60})
         for (const float offset : {0.0f, 16.0f, 1024.0f})
             for (const bool by_transform : {false, true}) {
                 CAPTURE(k);
                 CAPTURE(offset);
                 CAPTURE(by_transform);
                 const float scale = std::ldexp(1.0f, k);
+                const Mesh& sphere = k == -60 ? coarse : fine;
                 const glm::dvec3 middle = double(scale) * offset * glm::dvec3(1, -0.7, 0.3);
                 const glm::dvec3 outside = middle + 3.0 * double(scale) * glm::normalize(glm::dvec3(1, 2, 1));
                 const BuildOptions options{.levels = by_transform ? Levels::two : Levels::one};
@@ -125,7 +128,9 @@ TEST_CASE(
                     count_wrong(placed(plane, scale, offset, by_transform), options, outside, scale, false),
                     count_wrong(placed(sphere, scale, offset, by_transform), options, outside, scale, false),
                     count_wrong(placed(sphere, scale, offset, by_transform), options, middle, scale, true)};
-                for (int c = 0; c < 3; ++c) {
+                // Rays along triangles of 2^-61 miss them, for the reciprocal of their determinant is infinite.
+                const bool lost = k == -60 && !by_transform;
+                for (int c = 0; c < (lost ? 2 : 3); ++c) {
                     CAPTURE(c);
                     CHECK(counts[c].rays > 0);
                     CHECK(counts[c].wrong[0] == 0);

@@ -8,6 +8,8 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/rays.hpp"
+#include "path_picture.hpp"
+#include "path_scenes.hpp"
 #include "render/two_squares.hpp"
 
 using namespace boxwood;
@@ -95,6 +97,36 @@ TEST_CASE("render: every channel holds what its pixel's ray meets") {
             for (const std::size_t count : seen) CHECK(count > 30);
         }
     }
+}
+
+TEST_CASE("render: the Cornell box is as bright by the rasteriser as by rays") {
+    Device& device = test_device();
+    const Scene scene = cornell_scene();
+    const Tree tree = build(device, scene);
+    const std::uint32_t repeats = small_sizes() ? 3 : 10;
+    const auto estimate_by = [&](Primary primary, std::uint64_t seed) {
+        RenderOptions options = options_of(Integrator::path, {}, small_sizes() ? 2 : 32);
+        options.light.primary = primary;
+        options.light.depth = small_sizes() ? 2 : 6;
+        if (small_sizes()) options.width = options.height = 4;
+        double sum = 0.0, square = 0.0;
+        for (std::uint32_t r = 0; r < repeats; ++r) {
+            options.light.seed = seed + r;
+            const Image image = render(device, scene, tree, {}, scene.cameras[0], options);
+            double mean = 0.0;
+            for (const char* channel : {"R", "G", "B"})
+                for (const float value : plane<float>(image, channel))
+                    mean += double{value} / (3.0 * options.width * options.height);
+            sum += mean / repeats;
+            square += mean * mean / repeats;
+        }
+        return Estimate{sum, std::sqrt(std::max(square - sum * sum, 0.0) / (repeats - 1)), repeats};
+    };
+    // Other seeds: two independent estimates.
+    const Estimate rays = estimate_by(Primary::rays, test_seed());
+    const Estimate raster = estimate_by(Primary::raster, test_seed() + 1000);
+    CHECK(std::abs(rays.mean - raster.mean) < 3 * std::hypot(rays.error, raster.error));
+    if (!small_sizes()) CHECK(rays.error < 0.0066 * rays.mean); // so that 2 % are seen
 }
 
 TEST_CASE("render: costs are the statistics of the same rays") {
