@@ -7,19 +7,26 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${1:-build/release}
-suites=${2:-runtime,primitives,bounds,hierarchy,traverse,render}
-log=$build/oclgrind.log
+suites=${2:-hierarchy,render,traverse,primitives,bounds,runtime}
+export build
+export logs=$build/oclgrind
+rm -rf "$logs"
+mkdir -p "$logs"
 
-# A process for each suite: after every kernel Oclgrind goes through all buffers of its process, also those that the pool keeps.
+# A process for each suite, one on each core: after every kernel Oclgrind goes through all buffers of its process, on one thread.
 # Not by --log: every context that a test opens would start that file anew.
-: >"$log"
-for suite in ${suites//,/ }; do
+check_suite() {
     if ! BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --max-errors 1000000 \
-        "$build/boxwood-tests" --no-intro --test-suite="$suite" 2>>"$log"; then
-        tail -c 20000 "$log"
-        exit 1
+        "$build/boxwood-tests" --no-intro --test-suite="$1" >"$logs/$1.txt" 2>"$logs/$1.log"; then
+        cat "$logs/$1.txt"
+        tail -c 20000 "$logs/$1.log"
+        return 1
     fi
-done
+}
+export -f check_suite
+# Longest first.
+tr ',' '\n' <<<"$suites" | xargs -P "$(nproc)" -I{} bash -c 'check_suite {}'
+cat "$logs"/*.txt
 
 # climb.h hands off for the kernels that include it.
 # shellcheck disable=SC2016 # $1 is Perl's
@@ -43,4 +50,4 @@ awk -v handoff="$handoff" '
         judge()
         printf "check_oclgrind: %d races in the documented hand-off, %d other findings\n", races, bad
         exit bad > 0
-    }' "$log"
+    }' "$logs"/*.log

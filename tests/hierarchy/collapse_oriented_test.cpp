@@ -98,12 +98,13 @@ void check(const Scene& scene) {
 } // namespace
 
 TEST_CASE("collapse_oriented: both children in each node, aligned ones by their exact AABB") {
-    for (const std::size_t count : {1u, 2u, 3u, 257u, 3001u}) {
+    for (const std::size_t count : {1u, 2u, 3u, 257u, small_sizes() ? 300u : 3001u}) {
         CAPTURE(count);
         check(scene_of({random_mesh(count, 1.0f, 0.1f, count)}));
     }
     std::vector<Mesh> meshes;
-    for (const std::size_t size : {1u, 2u, 1u, 700u, 3u, 1u, 40u}) meshes.push_back(random_mesh(size, 1, 0.1f, size));
+    for (const std::size_t size : {1u, 2u, 1u, small_sizes() ? 270u : 700u, 3u, 1u, 40u})
+        meshes.push_back(random_mesh(size, 1, 0.1f, size));
     check(scene_of(meshes));
 }
 
@@ -111,6 +112,6 @@ TEST_CASE("collapse_oriented: right at every tuning") {
     for (const Tuning& tuning : tunings()) {
         CAPTURE(tuning.group_size);
         const TuningScope scope(tuning);
-        check(scene_of({random_mesh(1, 1, 1, 1), random_mesh(900, 1, 0.1f, 4)}));
+        check(scene_of({random_mesh(1, 1, 1, 1), random_mesh(small_sizes() ? 270 : 900, 1, 0.1f, 4)}));
     }
 }
