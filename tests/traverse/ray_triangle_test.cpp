@@ -53,7 +53,7 @@ TEST_CASE("brute force: of many triangles, the hit that double precision finds a
         }
         for (std::uint32_t i = 0; i < mesh.positions.size(); i += 3) mesh.triangles.emplace_back(i, i + 1, i + 2);
     }
-    const std::vector<Ray> rays = random_rays(random, small_sizes() ? 50 : 1000, 2.0f);
+    const std::vector<Ray> rays = random_rays(random, small_sizes() ? 200 : 1000, 2.0f);
     std::vector<std::array<glm::vec3, 3>> all;
     for (const Instance& instance : scene.instances)
         for (const auto& triangle : world_corners(scene, instance)) all.push_back(triangle);

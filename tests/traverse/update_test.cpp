@@ -128,8 +128,8 @@ TEST_CASE("update: one mesh placed once as it is, the tree over its own triangle
     for (const Kind& kind : animated_kinds) {
         CAPTURE(words(kind));
         Random random(12);
-        // 1: a root over one leaf; 200: several levels.
-        for (const std::uint32_t triangles : {1u, 200u}) {
+        // 1: a root over one leaf; 33 and 200: several levels.
+        for (const std::uint32_t triangles : {1u, small_sizes() ? 33u : 200u}) {
             const Scene scene = single(random_mesh(random, triangles, triangles == 1 ? 0.9f : 0.3f));
             Animation animation(scene, kind, random_rays(random, small_sizes() ? 200 : 500, 1.0f));
             animation.refit(0, 1.0f);
