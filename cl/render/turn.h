@@ -11,12 +11,10 @@ INLINE void sincos_turn(real turns, real* sine, real* cosine) {
     const mask quarter = AS_INT(shifted), turned = (quarter & 1) != 0;
     const real square = rest * rest;
     // Minimax polynomials of sin and cos of (pi / 2) rest; pi / 2 in two floats.
-    const real more = fma(square, fma(square, fma(square, (real)(-0x1.2ddcecp-8f), (real)(0x1.46607ep-4f)), (real)(-0x1.4abbc0p-1f)),
-                          (real)(-0x1.777a5cp-25f));
-    const real odd = fma(rest, (real)(0x1.921fb6p+0f), rest * more);
-    const real less = fma(square, fma(square, fma(square, (real)(0x1.d47d5ep-11f), (real)(-0x1.55b146p-6f)), (real)(0x1.03c1aep-2f)),
-                          (real)(-0x1.3bd3ccp+0f));
-    const real even = fma(square, less, (real)(1.0f));
+    const real p = fma(square, fma(square, (real)(-0x1.2ddcecp-8f), (real)(0x1.46607ep-4f)), (real)(-0x1.4abbc0p-1f));
+    const real odd = fma(rest, (real)(0x1.921fb6p+0f), rest * fma(square, p, (real)(-0x1.777a5cp-25f)));
+    const real q = fma(square, fma(square, (real)(0x1.d47d5ep-11f), (real)(-0x1.55b146p-6f)), (real)(0x1.03c1aep-2f));
+    const real even = fma(square, fma(square, q, (real)(-0x1.3bd3ccp+0f)), (real)(1.0f));
     // Signs: the sine's is that of the second half, the cosine's of the second and third quarter.
     *sine = AS_REAL(AS_INT(CHOOSE(turned, even, odd)) ^ ((quarter & 2) << 30));
     *cosine = AS_REAL(AS_INT(CHOOSE(turned, odd, even)) ^ (((quarter + 1) & 2) << 30));
