@@ -226,7 +226,7 @@ INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const 
 }
 #endif
 
-/// Light on `origin`; `choice` in [0, 1) takes the light, u and v the point on it. All lights together have `share` of the samples.
+/// Light on `origin`; `choice` in [0, 1) takes the light, u and v the point on it. All lights have `share` of the samples.
 INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const Vector* origin, real choice, real u, real v,
                          float share, LightSample* sample) {
     uint zero[LANES], index[LANES];
