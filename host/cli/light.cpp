@@ -23,7 +23,8 @@ void add_words(CLI::App& command, const std::string& option, Value& target, cons
                 try {
                     target = parse(word);
                 } catch (const InputError& error) {
-                    throw CLI::ValidationError(option, error.what());
+                    // Without the name of what is chosen, which the option's is.
+                    throw CLI::ValidationError(option, std::string(error.what()).substr(error.file.size() + 2));
                 }
             },
             help)

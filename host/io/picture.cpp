@@ -82,8 +82,12 @@ int byte_count(const EncodedImage& image) {
 }
 
 [[noreturn]] void fail(const EncodedImage& image) {
-    const char* reason = stbi_failure_reason();
-    throw InputError(image.name, "", "cannot be decoded: " + std::string(reason == nullptr ? "no reason" : reason));
+    const char* const given = stbi_failure_reason();
+    std::string reason = given == nullptr ? "no reason" : given;
+    // What it says of a head that none of its decoders takes.
+    if (reason == "unknown image type") reason = "its head is broken, or tells of more than 2^30 bytes of pixels";
+    if (reason == "outofdata") reason = "it ends early";
+    throw InputError(image.name, "", "cannot be decoded: " + reason);
 }
 
 bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> signature) {

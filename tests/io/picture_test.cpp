@@ -52,6 +52,15 @@ TEST_CASE("what is no picture is refused") {
     CHECK_THROWS_AS(encode_png("picture", {0, 2}, 3, {}), InputError);
 }
 
+TEST_CASE("a picture that is too large or cut off says so") {
+    EncodedImage image{"picture", encode_png("picture", {64, 64}, 3, std::vector<std::uint8_t>(64 * 64 * 3))};
+    EncodedImage huge = image;
+    for (const std::size_t at : {16, 20}) huge.bytes[at + 2] = std::byte{0xea}; // 59,968 x 59,968
+    CHECK_THROWS_WITH_AS(picture_size(huge), doctest::Contains("2^30 bytes"), InputError);
+    image.bytes.resize(50);
+    CHECK_THROWS_WITH_AS(decode_picture(image), doctest::Contains("ends early"), InputError);
+}
+
 TEST_CASE("a JPEG file with more codes in a table than there are symbols is refused") {
     // One segment DHT with 16 counts of 255, also where the file or the segment ends early.
     for (const std::size_t more : {0, 4, 5000}) {
