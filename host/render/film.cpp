@@ -51,6 +51,7 @@ Buffer<float> make_film(Device& device, FilmParts parts, std::size_t pixels) {
 }
 
 void add_sample(Device& device, FilmParts parts, const FilmSample& sample, BufferView<float> film) {
+    if (sample.count == 0) return;
     const std::uint32_t lanes = device.info().cpu ? 8 : 1;
     const Slices slices = cut(device, std::size_t{sample.count} + sample.first_pixel % lanes, lanes);
     const Defines defines{
