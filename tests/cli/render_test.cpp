@@ -49,6 +49,7 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     make_scenes(tool);
     const std::string render = "render room.glb -o x.exr ";
     check_failure(tool.run(render + "--integrator bdpt"), 2, "path, direct, ambient, ao, normals, cost");
+    check_failure(tool.run(render + "--integrator bdpt"), 2, "boxwood: --integrator: bdpt: unknown word");
     check_failure(tool.run(render + "--primary tubes"), 2, "rays, raster");
     check_failure(tool.run(render + "--sampler halton"), 2, "sobol, stratified, random");
     check_failure(tool.run(render + "--strategy luck"), 2, "mis, lights, bsdf");
@@ -283,6 +284,9 @@ TEST_CASE("render tool: a checkpoint that is damaged or of another render is ref
     };
     refused(picture + "--seed 2");
     refused(picture + "--camera 0 --environment 1,1,1");
+    refused(picture + "--fov 50");
+    refused(picture + "--filter nearest");
+    refused(picture + "--primary raster");
     refused("render forest.glb" + picture.substr(picture.find(" -o")));
     CHECK(tool.contents("x.exr.resume") == checkpoint);
     std::string damaged = checkpoint;
