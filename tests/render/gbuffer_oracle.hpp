@@ -28,7 +28,7 @@ inline double linear(double byte) {
 inline glm::dvec3 dvec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 /// A hit's triangle in double precision.
-struct Oracle {
+struct PixelOracle {
     const Mesh& mesh;
     const Material& material;
     glm::dmat4 to_world;
@@ -36,7 +36,7 @@ struct Oracle {
     glm::dvec3 weight, world[3];
     glm::dvec3 normal; ///< Of the triangle, towards the ray's origin.
 
-    Oracle(const Scene& scene, const Ray& ray, const Hit& hit)
+    PixelOracle(const Scene& scene, const Ray& ray, const Hit& hit)
         : mesh(scene.meshes[scene.instances[hit.instance].mesh]),
           material(scene.materials[mesh.materials[hit.primitive]]), to_world(scene.instances[hit.instance].transform),
           corner(mesh.triangles[hit.primitive]), weight(1.0 - hit.u - hit.v, hit.u, hit.v) {
@@ -131,7 +131,8 @@ struct Oracle {
 
 /// The change of the first texture coordinates over a pixel, by the rays a thousandth of a pixel on. `magnitude`: the largest number
 /// that meets in it.
-inline glm::dvec4 derivatives(const Oracle& oracle, const CameraRecord& camera, const Ray& ray, double& magnitude) {
+inline glm::dvec4 derivatives(const PixelOracle& oracle, const CameraRecord& camera, const Ray& ray,
+                              double& magnitude) {
     const glm::dvec3 origin = dvec(ray.origin), direction = dvec(ray.direction);
     const glm::dvec3 forward = camera.perspective ? direction / glm::dot(direction, dvec(camera.forward)) : direction;
     const auto weights_at = [&](const glm::dvec3& step) {

@@ -158,7 +158,7 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
                 for (int c = 0; c < 4; ++c) REQUIRE(planes.uv_derivatives[4 * i + c] == 0.0f);
                 continue;
             }
-            const Oracle oracle(shot.scene, rays[i], hits[i]);
+            const PixelOracle oracle(shot.scene, rays[i], hits[i]);
             REQUIRE(planes.materials[i] == oracle.mesh.materials[hits[i].primitive]);
             // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of them.
             constexpr double rounding = 8 * 0x1p-24;
