@@ -171,7 +171,9 @@ TEST_CASE("build: what cannot fit is refused before any work, with both numbers"
 TEST_CASE("capacity: the largest buffer is a limit, for every layout") {
     Device& device = test_device();
     const std::uint64_t largest = device.info().largest_buffer_bytes;
-    for (const auto& [layout, bounds] : volumes) {
+    for (const auto& volume : volumes) {
+        const auto layout = volume.first; // clang 14 captures no structured bindings
+        const auto bounds = volume.second;
         CHECK_NOTHROW(check_capacity(device, layout, bounds, 1000, 3000, 10));
         CHECK_NOTHROW(check_capacity(device, layout, bounds, 0, 0, 0));
         const auto refused = [&](std::uint64_t triangles, std::uint64_t vertices, std::uint64_t instances) {

@@ -139,7 +139,9 @@ TEST_CASE("path: a plane under a square that emits, by every strategy and sample
                                                       {Strategy::lights, SamplerKind::stratified},
                                                       {Strategy::bsdf, SamplerKind::sobol},
                                                       {Strategy::mis, SamplerKind::random}};
-    for (const auto& [strategy, sampler] : pairs) {
+    for (const auto& pair : pairs) {
+        const Strategy strategy = pair.first; // clang 14 captures no structured bindings
+        const SamplerKind sampler = pair.second;
         CAPTURE(static_cast<int>(strategy));
         CAPTURE(static_cast<int>(sampler));
         const Estimate found = quad_estimate(strategy, sampler, lit, half);

@@ -287,10 +287,10 @@ TEST_CASE("render: a camera without a frame or a field of view is refused") {
     CHECK(refused([&](Camera& camera) { camera.to_world[3][1] = nan; }) == "camera.to_world");
     for (const float angle : {0.0f, -1.0f, std::numbers::pi_v<float>, nan, infinity})
         CHECK(refused([&](Camera& camera) { camera.vertical_fov = angle; }) == "camera.vertical_fov");
-    for (const float height : {0.0f, -1.0f, nan, infinity})
+    for (const float half : {0.0f, -1.0f, nan, infinity})
         CHECK(refused([&](Camera& camera) {
                   camera.perspective = false;
-                  camera.half_height = height;
+                  camera.half_height = half;
               }) == "camera.half_height");
 }
 
