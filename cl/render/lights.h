@@ -201,10 +201,10 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
 /// extent, which have no instance.
 INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const uint* primitive, real distance, real cosine) {
     uint low[LANES];
-    FOR_LANES(lane) low[lane] = 0;
+    for (uint lane = 0; lane < LANES; ++lane) low[lane] = 0;
     for (uint left = lights->count; left > 1; left -= left >> 1) {
         const uint step = left >> 1;
-        FOR_LANES(lane) {
+        for (uint lane = 0; lane < LANES; ++lane) {
             // BOXWOOD_NONE + 1 is 0: before all others.
             global const LightRecord* light = lights->records + low[lane] + step;
             const ulong key = (ulong)(light->instance + 1u) << 32 | light->primitive;
@@ -213,7 +213,7 @@ INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const 
         }
     }
     float probabilities[LANES], sizes[LANES];
-    FOR_LANES(lane) {
+    for (uint lane = 0; lane < LANES; ++lane) {
         global const LightRecord* light = lights->records + low[lane];
         const float probability = lights->distribution[low[lane] + 1] - lights->distribution[low[lane]];
         const bool found = light->kind == BOXWOOD_TRIANGLE_LIGHT && light->instance == instance[lane] &&
