@@ -38,14 +38,15 @@ Answers ask(const Scene& scene, const std::vector<Point>& points, std::vector<Pl
     Device& device = test_device();
     const Appearance appearance = appearance_of(scene);
     places.resize(points.size());
-    const std::size_t count = (points.size() + 7) / 8 * 8;
+    const std::size_t count = (points.size() + 15) / 16 * 16;
     std::vector<float> a[2], b[2];
     for (const int k : {0, 1}) {
         const Guarded<float> samples(device, 11 * count), densities(device, count);
-        launch(device, {"render/lights_test.cl", "lights_test", {{"LANES", k == 0 ? "1" : "16"}, {"TRANSFORMS", "1"}}}, "lights test", count,
-               appearance.lights, appearance.light_distribution, static_cast<std::uint32_t>(appearance.lights.size()),
-               upload(device, by_components(points), "points"), upload(device, by_components(places), "places"),
-               static_cast<std::uint32_t>(count), samples.view(), densities.view());
+        launch(device, {"render/lights_test.cl", "lights_test", {{"LANES", k == 0 ? "1" : "16"}, {"TRANSFORMS", "1"}}},
+               "lights test", count, appearance.lights, appearance.light_distribution,
+               static_cast<std::uint32_t>(appearance.lights.size()), upload(device, by_components(points), "points"),
+               upload(device, by_components(places), "places"), static_cast<std::uint32_t>(count), samples.view(),
+               densities.view());
         CHECK(samples.intact());
         CHECK(densities.intact());
         a[k] = samples.values();
