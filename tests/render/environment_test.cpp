@@ -42,14 +42,14 @@ Answers ask(const Environment& environment, const std::vector<glm::vec3>& direct
     std::vector<std::array<float, 2>> p(d.size(), {0, 0});
     for (std::size_t i = 0; i < directions.size(); ++i) d[i] = {directions[i].x, directions[i].y, directions[i].z};
     for (std::size_t i = 0; i < points.size(); ++i) p[i] = {points[i].x, points[i].y};
-    const std::size_t count = (d.size() + 7) / 8 * 8;
+    const std::size_t count = padded(d.size());
     const std::string kind = map.kind == EnvironmentKind::picture ? "2" : "1";
     std::vector<float> a[2], b[2];
     for (const int k : {0, 1}) {
         const Guarded<float> out(device, 4 * count), drawn(device, 7 * count);
         launch(
             device,
-            {"render/environment_test.cl", "environment_test", {{"ENVIRONMENT", kind}, {"LANES", k == 0 ? "1" : "8"}}},
+            {"render/environment_test.cl", "environment_test", {{"ENVIRONMENT", kind}, {"LANES", k == 0 ? "1" : "16"}}},
             "environment test", count, map.record, map.texels, map.rows, map.columns,
             upload(device, by_components(d), "directions"), upload(device, by_components(p), "points"),
             static_cast<std::uint32_t>(count), out.view(), drawn.view());

@@ -38,7 +38,7 @@ Answers ask(const Scene& scene, const std::vector<Point>& points, std::vector<Pl
     Device& device = test_device();
     const Appearance appearance = appearance_of(scene);
     places.resize(points.size());
-    const std::size_t count = (points.size() + 15) / 16 * 16;
+    const std::size_t count = padded(points.size());
     std::vector<float> a[2], b[2];
     for (const int k : {0, 1}) {
         const Guarded<float> samples(device, 11 * count), densities(device, count);

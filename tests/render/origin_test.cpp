@@ -79,8 +79,8 @@ Counts count_wrong(const Scene& scene, const BuildOptions& options, const glm::d
     Counts counts;
     for (std::uint32_t steps = 0; steps < 2; ++steps) {
         const Buffer<Ray> next = make_buffer<Ray>(device, count, "next rays");
-        launch(device, {"render/origin_test.cl", "origin_test", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "origin test", count,
-               geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
+        launch(device, {"render/origin_test.cl", "origin_test", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "origin test",
+               count, geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
                upload(device, directions, "directions"), count, steps, next);
         closest_hit(device, tree, next, next_hits);
         const std::vector<Hit> found = download(device, next_hits);

@@ -2,9 +2,9 @@
 // compile: LANES=1 SAMPLER=0
 // compile: LANES=1 SAMPLER=1
 // compile: LANES=1 SAMPLER=2
-// compile: LANES=8 SAMPLER=0
-// compile: LANES=8 SAMPLER=1
-// compile: LANES=8 SAMPLER=2
+// compile: LANES=16 SAMPLER=0
+// compile: LANES=16 SAMPLER=1
+// compile: LANES=16 SAMPLER=2
 #include "render/sampler.h"
 
 /// out = the point of sample s of `samples` for `count` pixels and dimensions, two floats each.

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "bounds/lanes_of.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
 
@@ -28,7 +29,7 @@ struct Place {
 std::vector<std::vector<glm::vec2>> points(Kind kind, std::uint32_t samples, const std::vector<Place>& places,
                                            std::uint64_t seed = test_seed()) {
     Device& device = test_device();
-    const std::size_t count = (places.size() + 7) / 8 * 8;
+    const std::size_t count = padded(places.size());
     std::vector<std::uint32_t> pixels(count), dimensions(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Place& place = places[std::min(i, places.size() - 1)];
@@ -36,7 +37,7 @@ std::vector<std::vector<glm::vec2>> points(Kind kind, std::uint32_t samples, con
         dimensions[i] = place.dimension;
     }
     std::vector<float> values[2];
-    const char* const lanes[2] = {"1", "8"};
+    const char* const lanes[2] = {"1", "16"};
     for (int k = 0; k < 2; ++k) {
         const Guarded<float> out(device, 2 * count * samples);
         launch(device,
