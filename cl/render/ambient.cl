@@ -12,9 +12,9 @@
 // LIGHTS      1: there are punctual lights.
 // GROUP_SIZE  work-items per work-group.
 //
-// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ENVIRONMENT=0 LIGHTS=0 SAMPLER=2 LANES=8 TRANSFORMS=1
+// compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ENVIRONMENT=0 LIGHTS=0 SAMPLER=2 LANES=16 TRANSFORMS=1
 // compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=1 TEXTURES=0 ENVIRONMENT=1 LIGHTS=1 SAMPLER=0 LANES=1 TRANSFORMS=0
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ENVIRONMENT=2 LIGHTS=1 SAMPLER=1 FILTER=2 LANES=8 TRANSFORMS=1
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ENVIRONMENT=2 LIGHTS=1 SAMPLER=1 FILTER=2 LANES=16 TRANSFORMS=1
 #define ALPHA 0
 #define EMISSION 0
 #define SPECULAR 0
@@ -186,11 +186,11 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
 #endif
     const AmbientSettings settings = {camera, coefficients, seed, sample, samples, first_pixel, bounce};
     const ulong begin = (ulong)get_global_id(0) * length;
-    const uint end = (uint)min(begin + length, (ulong)count);
-    for (uint i = (uint)begin; i < end; i += LANES) {
-        const uint used = min((uint)LANES, end - i);
+    const ulong end = min(begin + length, (ulong)count);
+    for (ulong i = begin; i < end; i += LANES) {
+        const uint used = (uint)min((ulong)LANES, end - i);
         uint index[LANES];
-        lane_indices(i, used, index);
+        lane_indices((uint)i, used, index);
         Rays view;
         Hits met;
         Bounce result;
@@ -260,11 +260,11 @@ occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, 
                global const Ray* rays, global const Hit* hits, uint count, uint length, global Ray* next_rays) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
-    const uint end = (uint)min(begin + length, (ulong)count);
-    for (uint i = (uint)begin; i < end; i += LANES) {
-        const uint used = min((uint)LANES, end - i);
+    const ulong end = min(begin + length, (ulong)count);
+    for (ulong i = begin; i < end; i += LANES) {
+        const uint used = (uint)min((ulong)LANES, end - i);
         uint index[LANES];
-        lane_indices(i, used, index);
+        lane_indices((uint)i, used, index);
         Rays view, next;
         Hits met;
         load_rays(rays, index, &view);

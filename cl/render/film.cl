@@ -76,11 +76,11 @@ film_add(global const float* part0, global const float* part1, global const floa
     const uint last = first + count; // pictures have fewer than 2^31 pixels
     const ulong begin = first - first % LANES + (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)last);
-    for (uint p = (uint)begin; p < end; p += LANES) {
+    for (ulong p = begin; p < end; p += LANES) {
         uint index[LANES]; // lanes without a pixel of the sample read that of another
         int wanted[LANES];
         for (uint lane = 0; lane < LANES; ++lane) {
-            const uint chosen = clamp(p + lane, first, last - 1);
+            const uint chosen = clamp((uint)p + lane, first, last - 1);
             index[lane] = chosen - first;
             wanted[lane] = chosen == p + lane ? -1 : 0;
         }

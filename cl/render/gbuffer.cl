@@ -5,11 +5,11 @@
 //             32 derivatives of texture coordinates, 64 material, 128 instance, 256 primitive. The others may be null.
 // GROUP_SIZE  work-items per work-group.
 //
-// compile: PLANES=511 MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 LANES=8 TRANSFORMS=1
+// compile: PLANES=511 MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 LANES=16 TRANSFORMS=1
 // compile: PLANES=511 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=0 TEXTURES=1 FILTER=1 LANES=1 TRANSFORMS=0
 // compile: PLANES=511 MATERIALS=0 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=8 TRANSFORMS=1
 // compile: PLANES=12 MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=1 COLORS=1 TEXTURES=1 FILTER=0 LANES=1 TRANSFORMS=1
-// compile: PLANES=1 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=8 TRANSFORMS=0
+// compile: PLANES=1 MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=16 TRANSFORMS=0
 #include "render/pixel_beam.h"
 
 #if !defined(PLANES) || !defined(GROUP_SIZE)
@@ -103,11 +103,11 @@ g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* 
          global uint* out_materials, global uint* out_instances, global uint* primitives) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
-    const uint end = (uint)min(begin + length, (ulong)count);
-    for (uint i = (uint)begin; i < end; i += LANES) {
-        const uint used = min((uint)LANES, end - i);
+    const ulong end = min(begin + length, (ulong)count);
+    for (ulong i = begin; i < end; i += LANES) {
+        const uint used = (uint)min((ulong)LANES, end - i);
         uint index[LANES];
-        lane_indices(i, used, index);
+        lane_indices((uint)i, used, index);
         Rays view;
         Hits met;
         Pixels pixels;

@@ -38,9 +38,6 @@ typedef struct Light {
     real range, inverse_size, cone_scale, cone_edge, clearance;
 } Light;
 
-// The largest float below 1: the end of a segment is left out.
-#define BEFORE_END 0x1.fffffep-1f
-
 #define LIGHT_FLOATS 24
 
 INLINE void load_lights(global const LightRecord* records, const uint* index, Light* light) {
@@ -222,7 +219,9 @@ INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const 
         sizes[lane] = light->inverse_size;
     }
     const real probability = LOAD_LANES(probabilities), far = distance * LOAD_LANES(sizes);
-    return CHOOSE((cosine > 0.0f) & (probability > 0.0f), probability * (far * far / cosine), (real)(0.0f));
+    const real density = probability * (far * far / cosine);
+    // As where it is drawn: what has no finite density is left to the surface.
+    return CHOOSE((cosine > 0.0f) & (probability > 0.0f) & (density < INFINITY), density, (real)(0.0f));
 }
 #endif
 

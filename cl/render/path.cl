@@ -7,7 +7,7 @@
 // compile: MATERIALS=1 NORMALS=1 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=1 STRATEGY=0 SAMPLER=2 LANES=1 TRANSFORMS=0
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=1 EMISSION=1 LIGHTS=1 ENVIRONMENT=0 STRATEGY=0 SAMPLER=1 LANES=16 TRANSFORMS=1
 // compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=0 SAMPLER=2 FILTER=2 LANES=1 TRANSFORMS=1
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=1 COLORS=0 TEXTURES=1 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=1 SAMPLER=0 FILTER=1 LANES=16 TRANSFORMS=0
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=1 COLORS=0 TEXTURES=1 ALPHA=0 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=2 STRATEGY=1 SAMPLER=0 FILTER=1 LANES=8 TRANSFORMS=0
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=1 SPECULAR=1 UNIFORM_HEMISPHERE=0 EMISSION=1 LIGHTS=1 ENVIRONMENT=1 STRATEGY=2 SAMPLER=2 LANES=1 TRANSFORMS=1
 // compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=1 ENVIRONMENT=0 STRATEGY=2 SAMPLER=2 LANES=16 TRANSFORMS=1
 #include "render/path.h"
@@ -131,7 +131,7 @@ INLINE mask follow(const PathWorld* world, const PathSettings* settings, global 
     return goes_on;
 }
 
-/// Paths at the camera, of the pixels from `first` on.
+/// Paths at the camera, of the pixels that `pixel` names.
 INLINE void begin_paths(global const CameraRecord* camera, uint samples, const uint* pixel, Paths* paths) {
     const real zero = 0.0f, one = 1.0f;
     const Paths fresh = {{one, one, one}, zero, zero, zero, LOAD_LANES(pixel), (whole)(0), (whole)(0)};
@@ -148,6 +148,14 @@ INLINE void begin_paths(global const CameraRecord* camera, uint samples, const u
     (void)camera;
     (void)samples;
 #endif
+}
+
+/// No light yet for the pixels [first, first + count).
+INLINE void clear_light(uint first, uint count, global float* direct, global float* indirect) {
+    for (uint i = first; i < first + count; ++i) {
+        vstore3((float3)(0.0f), i, direct);
+        vstore3((float3)(0.0f), i, indirect);
+    }
 }
 
 INLINE void load_paths(global const PathState* states, const uint* index, Paths* paths) {
@@ -251,10 +259,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
         Paths paths;
         if (first) {
             begin_paths(camera, samples, index, &paths);
-            for (uint k = 0; k < used; ++k) {
-                vstore3((float3)(0.0f), i + k, direct);
-                vstore3((float3)(0.0f), i + k, indirect);
-            }
+            clear_light(i, used, direct, indirect);
         } else {
             load_paths(states, index, &paths);
         }

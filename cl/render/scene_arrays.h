@@ -18,6 +18,10 @@
 #error "define MATERIALS, NORMALS, TANGENTS, UV_SETS, COLORS and TEXTURES"
 #endif
 
+#if UV_SETS && !TEXTURES
+#error "texture coordinates are for textures"
+#endif
+
 // Floats of a vertex in `attributes`, in this order; what there is none of takes no room.
 #define NORMAL_AT 0
 #define TANGENT_AT (NORMAL_AT + 3 * NORMALS)

@@ -60,19 +60,20 @@ diffuse_rays(global const float* positions, global const uint* triangles, global
              global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
              uint length, ulong seed, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
-    const uint end = (uint)min(begin + length, (ulong)count);
-    for (uint i = (uint)begin; i < end; ++i) {
+    const ulong end = min(begin + length, (ulong)count);
+    for (ulong i = begin; i < end; ++i) {
+        const uint index = (uint)i;
         Surface surface;
         Rays ray;
-        if (surface_at(positions, triangles, meshes, instances, rays, hits, i, &surface)) {
+        if (surface_at(positions, triangles, meshes, instances, rays, hits, index, &surface)) {
             surface_origin(&surface, &ray.origin);
-            cosine_direction(&surface.normal, random_disk(random_key(seed, i)), &ray.direction);
+            cosine_direction(&surface.normal, random_disk(random_key(seed, index)), &ray.direction);
             ray.t_min = 0.0f;
             ray.t_max = INFINITY;
         } else {
-            clear_rays(1, &ray);
+            null_rays(&ray);
         }
-        store_rays(&ray, out, &i, 1);
+        store_rays(&ray, out, &index, 1);
     }
 }
 
@@ -83,19 +84,20 @@ shadow_rays(global const float* positions, global const uint* triangles, global 
             global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
             uint length, float light_x, float light_y, float light_z, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
-    const uint end = (uint)min(begin + length, (ulong)count);
-    for (uint i = (uint)begin; i < end; ++i) {
+    const ulong end = min(begin + length, (ulong)count);
+    for (ulong i = begin; i < end; ++i) {
+        const uint index = (uint)i;
         Surface surface;
         Rays ray;
-        if (surface_at(positions, triangles, meshes, instances, rays, hits, i, &surface)) {
+        if (surface_at(positions, triangles, meshes, instances, rays, hits, index, &surface)) {
             const Vector light = {light_x, light_y, light_z};
             surface_origin(&surface, &ray.origin);
             subtract3(&light, &ray.origin, &ray.direction);
             ray.t_min = 0.0f;
             ray.t_max = BEFORE_END;
         } else {
-            clear_rays(1, &ray);
+            null_rays(&ray);
         }
-        store_rays(&ray, out, &i, 1);
+        store_rays(&ray, out, &index, 1);
     }
 }

@@ -167,10 +167,7 @@ INLINE void shading_normal(const SceneArrays* scene, const Triangles* triangles,
     Vector object, flat, bent;
     interpolate_direction(scene, triangles, hits, NORMAL_AT, &object);
     // Vertices without normals leave that of the triangle.
-    Vector edge1 = triangles->edge1, edge2 = triangles->edge2;
-    scale_to_one3(&edge1);
-    scale_to_one3(&edge2);
-    exact_cross3(&edge1, &edge2, &flat);
+    object_normal(triangles, &flat);
     normalise_any3(&flat);
     choose3(NOT(largest3(&object) > 0.0f), &flat, &object);
     normal_to_world(triangles, &object, &bent);

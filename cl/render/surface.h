@@ -222,6 +222,14 @@ INLINE void bound_way(const Triangles* triangles, Vector* there, Vector* back) {
 #endif
 }
 
+/// Normals of the triangles in object space, by the order of the vertices; of another length, zero without area.
+INLINE void object_normal(const Triangles* triangles, Vector* normal) {
+    Vector edge1 = triangles->edge1, edge2 = triangles->edge2;
+    scale_to_one3(&edge1);
+    scale_to_one3(&edge2);
+    exact_cross3(&edge1, &edge2, normal);
+}
+
 /// How far along `normal` the point of a new ray is moved so that a traversal, which sees the triangle through its own
 /// roundings, finds it on the right side. With u = 2^-24, W = |to_world| largest the magnitudes that meet in a world point, and
 /// B = |to_world| (|to_object| W) those that meet on the way back to object space, seen from the world, the errors off the plane
@@ -244,10 +252,8 @@ INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) 
 
 /// The surfaces that rays along `direction` met at `hits`.
 INLINE void find_surface(const Triangles* triangles, const Vector* direction, const Hits* hits, Surface* surface) {
-    Vector edge1 = triangles->edge1, edge2 = triangles->edge2, object;
-    scale_to_one3(&edge1);
-    scale_to_one3(&edge2);
-    exact_cross3(&edge1, &edge2, &object);
+    Vector object;
+    object_normal(triangles, &object);
     normal_to_world(triangles, &object, &surface->normal);
     normalise_any3(&surface->normal);
     surface->clearance = surface_clearance(triangles, &surface->normal);

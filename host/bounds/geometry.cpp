@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/geometry.hpp"
+#include <algorithm>
 
 #include <string>
 
@@ -102,6 +103,8 @@ Geometry upload(Device& device, const Scene& scene) {
     }
     geometry.meshes = upload(device, mesh_ranges(scene), "meshes");
     geometry.instances = upload(device, records, "instances");
+    geometry.transforms = std::any_of(scene.instances.begin(), scene.instances.end(),
+                                      [](const Instance& i) { return i.transform != glm::mat4(1.0f); });
     return geometry;
 }
 

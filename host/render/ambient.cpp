@@ -28,7 +28,7 @@ constexpr std::array<double, 9> lambert = {1.0, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25,
 
 Defines ambient_defines(const Device& device, const World& world, const LightOptions& options, bool lights,
                         EnvironmentKind environment) {
-    Defines defines = scene_defines(device, world.appearance.requirements, options.filter);
+    Defines defines = scene_defines(device, world.geometry, world.appearance.requirements, options.filter);
     defines["LIGHTS"] = flag(lights);
     defines["ENVIRONMENT"] = std::to_string(static_cast<int>(environment));
     defines["SAMPLER"] = std::to_string(2 - static_cast<int>(options.sampler));

@@ -64,7 +64,7 @@ void g_buffer(Device& device, const Geometry& geometry, const Appearance& appear
     if (camera.size() != 1 || samples == 0) throw InputError("g_buffer", "camera", "needs one record and a sample");
     const unsigned bits = planes_in(planes, hits.size());
     if (bits == 0) return;
-    Defines defines = scene_defines(device, appearance.requirements, filter);
+    Defines defines = scene_defines(device, geometry, appearance.requirements, filter);
     defines["PLANES"] = std::to_string(bits);
     const Slices slices = cut(device, hits.size());
     const float share = 1.0f / std::sqrt(static_cast<float>(samples));

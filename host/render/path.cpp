@@ -50,7 +50,7 @@ struct Programs {
         const bool towards = options.strategy != Strategy::bsdf;
         const bool lights = world.appearance.lights.size() > 0 && (needs.punctual || towards);
         next_event = lights || (towards && world.environment.kind != EnvironmentKind::none);
-        Defines defines = scene_defines(device, needs, options.filter);
+        Defines defines = scene_defines(device, world.geometry, needs, options.filter);
         alpha = {"render/path_alpha.cl", "pass_shadows", defines};
         defines["ALPHA"] = flag(needs.alpha);
         defines["SPECULAR"] = flag(needs.specular);

@@ -5,9 +5,10 @@ namespace boxwood {
 
 std::string flag(bool needed) { return needed ? "1" : "0"; }
 
-Defines scene_defines(const Device& device, const ShadingRequirements& requirements, TextureFilter filter) {
+Defines scene_defines(const Device& device, const Geometry& geometry, const ShadingRequirements& requirements,
+                      TextureFilter filter) {
     Defines defines{
-        {"TRANSFORMS", flag(requirements.transforms)},     {"MATERIALS", flag(requirements.materials)},
+        {"TRANSFORMS", flag(geometry.transforms)},         {"MATERIALS", flag(requirements.materials)},
         {"NORMALS", flag(requirements.normals)},           {"TANGENTS", flag(requirements.tangents)},
         {"UV_SETS", std::to_string(requirements.uv_sets)}, {"COLORS", flag(requirements.colors)},
         {"TEXTURES", flag(requirements.textures)},         {"LANES", std::to_string(device.tuning().lanes)}};

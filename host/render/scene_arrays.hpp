@@ -15,7 +15,8 @@ namespace boxwood {
 std::string flag(bool needed);
 
 /// The macros of cl/render/scene_arrays.h and cl/runtime/real.h, and with textures that of cl/render/texture.h.
-Defines scene_defines(const Device& device, const ShadingRequirements& requirements, TextureFilter filter);
+Defines scene_defines(const Device& device, const Geometry& geometry, const ShadingRequirements& requirements,
+                      TextureFilter filter);
 
 /// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
 template <class... Arguments>

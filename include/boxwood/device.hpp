@@ -34,7 +34,7 @@ struct Tuning {
     std::uint32_t group_size = 1;       ///< Work-items per work-group, 1 or more.
     std::uint32_t work_items = 16;      ///< Work-items that a launch over a long array is cut into.
     std::uint32_t smallest_slice = 256; ///< Elements per work-item below which fewer work-items are used.
-    std::uint32_t lanes = 1; ///< Boxes or paths that a work-item treats at once: 1, 8, 16 (cl/runtime/real.h).
+    std::uint32_t lanes = 1; ///< Boxes or rays that a work-item treats at once: 1, 8, 16 (cl/runtime/real.h).
 };
 
 /// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform).

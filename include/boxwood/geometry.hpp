@@ -15,6 +15,7 @@ struct Geometry {
     Buffer<std::uint32_t> triangles; ///< 3 per triangle: indices into the concatenated vertices.
     Buffer<MeshRange> meshes;
     Buffer<InstanceRecord> instances; ///< Same order as Scene::instances; `root` is the tree builder's, here 0.
+    bool transforms = true;           ///< False where every instance has its mesh where the vertices are.
 
     std::size_t vertex_count() const { return positions.size() / 3; }
     std::size_t triangle_count() const { return triangles.size() / 3; }

@@ -56,6 +56,7 @@ public:
           camera_(upload_camera(
               device, subject.scene.cameras.empty() ? default_camera(subject.scene) : subject.scene.cameras.front(),
               width, height)) {
+        geometry_.transforms = requirements.transforms;
         options_.width = width;
         options_.height = height;
         parts_ = film_parts(options_.light.integrator);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device treats one path at a time or eight: nothing of a picture tells.
+// A device treats one path at a time, eight or sixteen: nothing of a picture tells.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -90,10 +90,10 @@ std::string different(const Image& a, const Image& b) {
 
 } // namespace
 
-TEST_CASE("lanes: pictures of every integrator are the same by one and by eight") {
+TEST_CASE("lanes: pictures of every integrator are the same by one, eight and sixteen") {
     Device& device = test_device();
-    const Scene scene = everything();
-    const Tree tree = build(device, scene);
+    Scene scene = everything();
+    Tree tree = build(device, scene);
     const Camera camera{"camera", look_at({-0.5, 1.5, 3}, {0, 0.5, 0}), true, 0.8f};
     const auto take = [&](RenderOptions options, std::uint32_t lanes) {
         Tuning tuning = device.tuning();
@@ -109,6 +109,7 @@ TEST_CASE("lanes: pictures of every integrator are the same by one and by eight"
         options.light.depth = 3;
         const Image one = take(options, 1);
         CHECK(different(take(options, 8), one) == "");
+        CHECK(different(take(options, 16), one) == "");
         const std::vector<float>& green = plane<float>(one, "G");
         CHECK(*std::max_element(green.begin(), green.end()) > 0.0f);
     };
@@ -128,5 +129,9 @@ TEST_CASE("lanes: pictures of every integrator are the same by one and by eight"
     options.light.strategy = Strategy::bsdf;
     options.light.hemisphere = Hemisphere::uniform;
     options.light.sampler = SamplerKind::stratified;
+    check(options);
+    // Programs without transforms.
+    for (Instance& instance : scene.instances) instance.transform = glm::mat4(1.0f);
+    tree = build(device, scene);
     check(options);
 }

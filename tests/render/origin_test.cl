@@ -37,7 +37,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void origin_test(
         ray.t_min = 0.0f;
         ray.t_max = INFINITY;
     } else {
-        clear_rays(1, &ray);
+        null_rays(&ray);
     }
     store_rays(&ray, out, &i, 1);
 }
