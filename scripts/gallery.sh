@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes the pictures of the README's gallery in scenes/: of procedural scenes, and, when a folder with them is given, of real ones
-# whose licences allow it with credit. Takes about ten minutes on two cores; SPP=8 is quick and noisy.
+# whose licences allow it with credit. Takes two minutes on two cores; SPP=8 is quick and noisy.
 #
 # usage: scripts/gallery.sh [FOLDER_OF_SCENES]
 set -euo pipefail
