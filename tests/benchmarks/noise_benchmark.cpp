@@ -146,8 +146,8 @@ std::vector<Point> measure(Device& device, const test::LitScene& lit, const Stud
     std::vector<Point> points;
     take_picture(device, lit, study.camera, frame, options_of(contender, 1, settings.depth, 1)); // compiles
     for (std::uint32_t samples = 1; samples <= settings.most_samples; samples *= 2) {
-        // Of few samples several pictures, so that bright outliers do not decide.
-        const std::uint32_t pictures = std::clamp(settings.most_samples / samples, 2u, 16u);
+        // As many samples in all, so that rare bright ones are in each error as often.
+        const std::uint32_t pictures = std::max(2 * settings.most_samples / samples, 2u);
         double square = 0.0;
         device.take_profile();
         for (std::uint32_t i = 0; i < pictures; ++i) {
