@@ -85,6 +85,8 @@ LightOptions options_of(const Contender& contender, std::uint32_t samples, std::
     options.samples = samples;
     options.depth = depth;
     options.seed = seed;
+    // Beams narrow with the number of samples: filtered textures would be others for each.
+    options.filter = TextureFilter::nearest;
     return options;
 }
 
