@@ -128,7 +128,8 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
     CHECK(scene["cameras"] == file["cameras"]);
     CHECK(scene["requirements"] == file["requirements"]);
     CHECK(scene["requirements"][0]["word"] == "two-levels");
-    CHECK(scene["requirements"][1]["because"] == "materials[0] \"soil\" and materials[1] \"bark\" are in use");
+    CHECK(scene["requirements"][1]["word"] == "transforms");
+    CHECK(scene["requirements"][2]["because"] == "materials[0] \"soil\" and materials[1] \"bark\" are in use");
 
     tool.succeed("scene materials --triangles 100 -o m.glb");
     const Json looks = Json::parse(tool.succeed("info m.glb --json").out);

@@ -10,6 +10,7 @@
 #include "boxwood/build.hpp"
 #include "boxwood/render.hpp"
 #include "render/ambient.hpp"
+#include "render/path_picture.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -178,9 +179,10 @@ TEST_CASE("ambient: direct light is that of the path tracer on Lambert surfaces"
     sun.kind = LightKind::directional;
     sun.direction = glm::normalize(glm::vec3(1, -1, 0.2f));
     scene.lights.push_back(sun);
-    // Several pictures each, so that their spread tells the standard error of what is compared.
+    // Several pictures each, so that the spread of the differences tells their standard error.
     const std::uint32_t repeats = small_sizes() ? 3 : 12;
-    double sums[2] = {}, squares[2] = {}, indirect = 0.0;
+    std::vector<double> differences(repeats);
+    double sum = 0.0, indirect = 0.0;
     for (std::uint32_t r = 0; r < repeats; ++r)
         for (const Integrator integrator : {Integrator::ambient, Integrator::direct}) {
             RenderOptions options = options_of(integrator, 12, small_sizes() ? 2 : 8);
@@ -188,13 +190,12 @@ TEST_CASE("ambient: direct light is that of the path tracer on Lambert surfaces"
             const Image image = picture(scene, down_camera(0, 2), options, {0, 0, 0});
             const bool path = integrator == Integrator::direct;
             const double found = mean(plane(image, "direct.G"));
-            sums[path] += found / repeats;
-            squares[path] += found * found / repeats;
+            differences[r] += path ? found : -found;
+            sum += found / repeats;
             if (!path) indirect += mean(plane(image, "indirect.G"));
         }
-    double variance = 0.0;
-    for (int i = 0; i < 2; ++i) variance += std::max(squares[i] - sums[i] * sums[i], 0.0) / (repeats - 1);
-    CHECK(std::abs(sums[0] - sums[1]) < 3.0 * std::sqrt(variance) + 64 * 0x1p-24 * sums[1]);
+    const Estimate difference = estimate_of(differences);
+    CHECK(std::abs(difference.mean) < difference.margin() + 64 * 0x1p-24 * sum);
     CHECK(indirect > 0.0); // of the wall on the floor
 }
 
