@@ -182,6 +182,7 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
             REQUIRE(wrong <= rounding * magnitude * oracle.slant() / facing);
             ++checked;
         }
+        if (small_sizes()) continue; // too few to ask for
         CHECK(checked > hits.size() / 16);
         CHECK(bent > checked / 8);
     }
