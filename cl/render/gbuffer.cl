@@ -49,15 +49,8 @@ INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* cam
     shading_normal(scene, &triangles, hits, spots, &surface, &view, &pixels->shading_normal);
 #endif
 #if PLANES & 8
-    float color[3][LANES];
-    for (uint lane = 0; lane < LANES; ++lane) {
-        const float4 c = color_at(scene, spots + lane);
-        color[0][lane] = c.x;
-        color[1][lane] = c.y;
-        color[2][lane] = c.z;
-    }
-    const Vector albedo = {LOAD_LANES(color[0]), LOAD_LANES(color[1]), LOAD_LANES(color[2])};
-    pixels->albedo = albedo;
+    float alpha[LANES];
+    colors_at(scene, spots, &pixels->albedo, alpha);
 #endif
 #if UV_SETS && (PLANES & 32)
     for (uint lane = 0; lane < LANES; ++lane) {

@@ -240,11 +240,8 @@ INLINE void apply_textures(const SceneArrays* scene, const Spot* spots, ShadingP
 }
 #endif
 
-/// Base colour with alpha as textures, vertices and the alpha mode make them.
-INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* material, whole flags, ShadingPoint* point) {
-    float alpha[LANES];
-    STORE_LANES(point->alpha, alpha);
-#if TEXTURES || COLORS
+/// The colours of spots, and their alphas before the alpha mode.
+INLINE void colors_at(const SceneArrays* scene, const Spot* spots, Vector* result, float* alpha) {
     float color[3][LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
         const float4 c = color_at(scene, spots + lane);
@@ -254,7 +251,15 @@ INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* 
         alpha[lane] = c.w;
     }
     const Vector found = {LOAD_LANES(color[0]), LOAD_LANES(color[1]), LOAD_LANES(color[2])};
-    point->base_color = found;
+    *result = found;
+}
+
+/// Base colour with alpha as textures, vertices and the alpha mode make them.
+INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* material, whole flags, ShadingPoint* point) {
+    float alpha[LANES];
+    STORE_LANES(point->alpha, alpha);
+#if TEXTURES || COLORS
+    colors_at(scene, spots, &point->base_color, alpha);
 #else
     (void)spots;
 #endif
