@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shared/aabb.h"
+#include "shared/influence.h"
+
+namespace boxwood {
+
+enum class AreaKind { plane, point };
+
+/// A region of a scene where rays are parallel (plane) or come from one point (point): thesis chapter 3, paper section 4. World
+/// coordinates.
+struct InfluenceArea {
+    AreaKind kind = AreaKind::plane;
+    glm::dvec3 origin{0.0};               ///< Plane: centre of the rectangle that rays leave. Point: the eye.
+    glm::dvec3 direction{0.0, 0.0, -1.0}; ///< Of the rays, or of the view; need not be normalised.
+    double half_width = 1.0; ///< Plane: half extent of the rectangle. Point: tangent of half the field of view.
+    double half_height = 1.0;
+    double near = 0.0;              ///< Point: distance of the plane that rays leave. Plane: 0.
+    double far = 1.0;               ///< How far the region reaches along the direction.
+    double tolerance_degrees = 0.5; ///< Largest angle between an affine ray and the area's own.
+    std::optional<double> share;    ///< Of all rays, those that follow this area; see influence_records.
+};
+
+/// Throws InputError(source, "area I", what) unless every area is finite, has extents above 0, a direction other than 0, near
+/// below far (above 0 for point areas), a tolerance in [0, 90] and shares in [0, 1] that add up to at most 1.
+void validate(std::span<const InfluenceArea> areas, const std::string& source);
+
+/// The areas as the device sees them, the directions normalised; `up` is the world's +y made perpendicular, or +z where the
+/// direction is +-y. Areas without a share divide what the others leave evenly with the rays that follow none: n of them
+/// get 1 / (n + 1) of it each. Throws as validate does.
+std::vector<InfluenceRecord> influence_records(std::span<const InfluenceArea> areas,
+                                               const std::string& source = "influence areas");
+
+/// Reads a JSON list of areas, as shared by the paper's authors: {"kind": "plane", "point", "direction", "half_width", "half_height",
+/// "length"} or {"kind": "point", "eye", "direction", "fov_x_degrees", "fov_y_degrees", "near", "far"}, both with optional
+/// "tolerance_degrees" and "share"; other keys are not read. Throws InputError naming the file and the index of the area.
+std::vector<InfluenceArea> load_areas(const std::filesystem::path& file);
+
+/// The region of an area (thesis 5.3): closed, in double precision. A box is closed too.
+bool contains(const InfluenceRecord& area, const glm::dvec3& point);
+bool encloses(const InfluenceRecord& area, const Aabb& box);
+/// Separating axes (thesis A.5) with the axis sets of a box and of a frustum.
+bool intersects(const InfluenceRecord& area, const Aabb& box);
+Aabb enclosing_box(const InfluenceRecord& area);
+/// The corners: near face, then far face, each (-,-), (+,-), (-,+), (+,+).
+std::array<glm::dvec3, 8> corners(const InfluenceRecord& area);
+
+} // namespace boxwood
