@@ -12,21 +12,19 @@ namespace boxwood {
 
 namespace {
 
-using Corners = std::array<glm::vec3, 8>; // bit k of the index: which end of axis k
-
-Corners corners_of(const Aabb& box) {
-    Corners corners;
+BoxCorners corners_of(const Aabb& box) {
+    BoxCorners corners;
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 3; ++k) corners[i][k] = i >> k & 1 ? box.max[k] : box.min[k];
     return corners;
 }
 
 /// `box`: center, extent, axes by columns (see shared/node.h).
-Corners corners_of_oriented(const float* box) {
+BoxCorners corners_of_oriented(const float* box) {
     glm::dmat3 axes;
     for (int i = 0; i < 9; ++i) axes[i / 3][i % 3] = box[6 + i];
     const glm::dmat3 edges = glm::inverse(axes);
-    Corners corners;
+    BoxCorners corners;
     for (int i = 0; i < 8; ++i) {
         glm::dvec3 point(box[0], box[1], box[2]);
         for (int k = 0; k < 3; ++k) point += (i >> k & 1 ? 1.0 : -1.0) * box[3 + k] * edges[k];
@@ -35,16 +33,7 @@ Corners corners_of_oriented(const float* box) {
     return corners;
 }
 
-template <class Node>
-Corners slot_corners(const Node& node, std::uint32_t slot) {
-    return corners_of(tree_check::slot_box(node, slot));
-}
-Corners slot_corners(const OrientedNode& node, std::uint32_t slot) {
-    if (node.child[slot] & BOXWOOD_ALIGNED) return corners_of(tree_check::slot_box(node, slot));
-    return corners_of_oriented(node.volume[slot]);
-}
-
-void add_box(const Corners& corners, Mesh& lines) {
+void add_box(const BoxCorners& corners, Mesh& lines) {
     const auto first = static_cast<std::uint32_t>(lines.positions.size());
     lines.positions.insert(lines.positions.end(), corners.begin(), corners.end());
     std::array<std::uint32_t, 24> ends{};
@@ -60,7 +49,7 @@ void add_box(const Corners& corners, Mesh& lines) {
 }
 
 template <class Node>
-Corners root_corners(const Node& root) {
+BoxCorners hull_corners(const Node& root) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     glm::vec3 low(infinity), high(-infinity);
     for (std::uint32_t slot = 0; slot < tree_check::used_slots(root); ++slot) {
@@ -124,6 +113,21 @@ void add_bottom_lines(const TreeImage& tree, const Scene& scene, DepthRange dept
 }
 
 } // namespace
+
+BoxCorners slot_corners(const BinaryNode& node, std::uint32_t slot) {
+    return corners_of(tree_check::slot_box(node, slot));
+}
+BoxCorners slot_corners(const Wide8Node& node, std::uint32_t slot) {
+    return corners_of(tree_check::slot_box(node, slot));
+}
+BoxCorners slot_corners(const OrientedNode& node, std::uint32_t slot) {
+    if (node.child[slot] & BOXWOOD_ALIGNED) return corners_of(tree_check::slot_box(node, slot));
+    return corners_of_oriented(node.volume[slot]);
+}
+
+BoxCorners root_corners(const BinaryNode& root) { return hull_corners(root); }
+BoxCorners root_corners(const OrientedNode& root) { return hull_corners(root); }
+BoxCorners root_corners(const Wide8Node& root) { return hull_corners(root); }
 
 Scene box_lines(const TreeImage& tree, const Scene& scene, DepthRange depths) {
     Scene result;

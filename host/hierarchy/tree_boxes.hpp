@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,19 @@ struct DepthRange {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
 };
+
+/// Bit k of the index: which end of axis k.
+using BoxCorners = std::array<glm::vec3, 8>;
+
+/// The corners of the volume of a slot in use.
+BoxCorners slot_corners(const BinaryNode& node, std::uint32_t slot);
+BoxCorners slot_corners(const OrientedNode& node, std::uint32_t slot);
+BoxCorners slot_corners(const Wide8Node& node, std::uint32_t slot);
+
+/// Of the axis-aligned hull of all slots.
+BoxCorners root_corners(const BinaryNode& root);
+BoxCorners root_corners(const OrientedNode& root);
+BoxCorners root_corners(const Wide8Node& root);
 
 /// The boxes that a valid tree's nodes have at some depths, leaves included, as a scene whose meshes are lists of lines:
 /// eight corners a box, and twelve edges as 24 vertex numbers (each Mesh::triangles element holds the ends of one and a

@@ -2,6 +2,7 @@
 // Everything public.
 #pragma once
 
+#include "boxwood/analysis.hpp"
 #include "boxwood/appearance.hpp"
 #include "boxwood/bounds.hpp"
 #include "boxwood/buffer.hpp"

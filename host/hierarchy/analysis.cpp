@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "boxwood/analysis.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "hierarchy/projection.hpp"
+
+namespace boxwood {
+
+namespace {
+
+using Corners = std::array<glm::dvec3, 8>;
+
+Corners corners_of(const AnalysisTree& tree, std::uint32_t node) {
+    Corners corners;
+    for (int i = 0; i < 8; ++i) {
+        if (!tree.corners.empty()) {
+            corners[i] = tree.corners[node][i];
+            continue;
+        }
+        const Aabb& box = tree.nodes[node].box;
+        for (int k = 0; k < 3; ++k) corners[i][k] = i >> k & 1 ? box.max[k] : box.min[k];
+    }
+    return corners;
+}
+
+double surface(const Corners& corners) {
+    const glm::dvec3 x = corners[1] - corners[0], y = corners[2] - corners[0], z = corners[4] - corners[0];
+    return 2.0 * (glm::length(glm::cross(x, y)) + glm::length(glm::cross(y, z)) + glm::length(glm::cross(z, x)));
+}
+
+/// The projections of one node's box, and its shares of the rectangle.
+struct Shadow {
+    Polygon all;
+    Polygon culled;
+    double chance = 0.0;
+    double chance_culled = 0.0;
+
+    Shadow(const InfluenceRecord& area, const Corners& corners)
+        : all(projection(area, corners)), culled(clip_to_rectangle(all)), chance(all.area() / 4.0),
+          chance_culled(culled.area() / 4.0) {}
+};
+
+void add_chances(const Shadow& shadow, double weight, NodeMeasures& measures) {
+    measures.chance += weight * shadow.chance;
+    measures.chance_culled += weight * shadow.chance_culled;
+}
+
+/// The overlap of each two of the node's children; `shadows` are theirs.
+void add_overlaps(std::span<const Shadow> shadows, double weight, NodeMeasures& measures) {
+    for (std::size_t i = 0; i < shadows.size(); ++i) {
+        for (std::size_t j = i + 1; j < shadows.size(); ++j) {
+            const Shadow &a = shadows[i], &b = shadows[j];
+            measures.overlap += weight * intersection(a.all, b.all).area() / 4.0;
+            measures.overlap_culled += weight * intersection(a.culled, b.culled).area() / 4.0;
+            measures.smaller += weight * std::min(a.chance, b.chance);
+            measures.smaller_culled += weight * std::min(a.chance_culled, b.chance_culled);
+        }
+    }
+}
+
+/// Adds what one area says to the measures of all nodes: each node is projected once, by its parent.
+void add_area(const AnalysisTree& tree, const InfluenceRecord& area, double weight,
+              std::vector<NodeMeasures>& measures) {
+    add_chances(Shadow(area, corners_of(tree, 0)), weight, measures[0]);
+    std::vector<Shadow> shadows;
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+        const AnalysisNode& node = tree.nodes[i];
+        shadows.clear();
+        for (std::uint32_t child = node.first_child; child < node.first_child + node.children; ++child) {
+            shadows.emplace_back(area, corners_of(tree, child));
+            add_chances(shadows.back(), weight, measures[child]);
+        }
+        add_overlaps(shadows, weight, measures[i]);
+    }
+}
+
+/// What a node charges whoever meets it.
+double price(const AnalysisNode& node) {
+    return node.children == 0 ? primitive_price * node.primitives : box_price * node.children;
+}
+
+SiblingOverlap overlap_to(const AnalysisTree& tree, std::span<const NodeMeasures> measures, std::uint32_t level) {
+    NodeMeasures sum;
+    for (std::size_t i = 0; i < tree.nodes.size() && tree.nodes[i].level < level; ++i) {
+        sum.overlap += measures[i].overlap;
+        sum.overlap_culled += measures[i].overlap_culled;
+        sum.smaller += measures[i].smaller;
+        sum.smaller_culled += measures[i].smaller_culled;
+    }
+    return {level, sum.smaller > 0.0 ? sum.overlap / sum.smaller : 0.0,
+            sum.smaller_culled > 0.0 ? sum.overlap_culled / sum.smaller_culled : 0.0};
+}
+
+template <class Count>
+void count(std::vector<Count>& counts, std::size_t index) {
+    if (index >= counts.size()) counts.resize(index + 1);
+    ++counts[index];
+}
+
+} // namespace
+
+std::vector<NodeMeasures> measure_nodes(const AnalysisTree& tree, std::span<const InfluenceRecord> areas) {
+    std::vector<NodeMeasures> measures(tree.nodes.size());
+    if (measures.empty()) return measures;
+    // A tree whose box has no area is met edge-on or not at all: every node of it counts as met.
+    const double root = surface(corners_of(tree, 0));
+    for (std::uint32_t i = 0; i < measures.size(); ++i)
+        measures[i].surface = root > 0.0 ? surface(corners_of(tree, i)) / root : 1.0;
+    double shares = 0.0;
+    for (const InfluenceRecord& area : areas) shares += area.share;
+    if (!(shares > 0.0)) return measures;
+    for (const InfluenceRecord& area : areas) add_area(tree, area, area.share / shares, measures);
+    return measures;
+}
+
+Analysis analysis_of(const AnalysisTree& tree, std::span<const NodeMeasures> measures) {
+    const auto per_node = [&](const NodeView& node, Analysis& sums) {
+        const NodeMeasures& measured = measures[node.index];
+        const double cost = price(node.node());
+        sums.sah += cost * measured.surface;
+        sums.pah += cost * measured.chance;
+        sums.pah_culled += cost * measured.chance_culled;
+        count(sums.nodes_by_level, node.level());
+        if (!node.is_leaf()) return;
+        ++sums.leaves;
+        sums.primitives += node.primitives();
+        count(sums.leaves_by_size, node.primitives());
+    };
+    return analyze(tree, Analysis{}, per_node, [&](Analysis& sums) {
+        sums.nodes = tree.nodes.size();
+        sums.depth = tree.nodes.empty() ? 0 : tree.nodes.back().level;
+        constexpr std::uint32_t all = std::numeric_limits<std::uint32_t>::max();
+        for (const std::uint32_t level : {4u, 7u, 10u, 15u, all})
+            sums.overlap.push_back(overlap_to(tree, measures, level));
+        return std::move(sums);
+    });
+}
+
+} // namespace boxwood
