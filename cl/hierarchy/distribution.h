@@ -63,4 +63,16 @@ static inline float expected_measure(const Distribution* distribution, Box box) 
     return sum + distribution->isotropic * surface_measure(distribution, box);
 }
 
+/// The rays of tree `tree` of a forest: those of the areas [area_starts[tree], area_starts[tree + 1]), all others isotropic.
+static inline void rays_of_tree(global const Aabb* tree_bounds, global const InfluenceRecord* areas,
+                                global const uint* area_starts, uint tree, Distribution* rays) {
+    const uint first = area_starts[tree];
+    rays->areas = areas + first;
+    rays->area_count = area_starts[tree + 1] - first;
+    rays->isotropic = 1.0f;
+    for (uint i = 0; i < rays->area_count; ++i) rays->isotropic -= rays->areas[i].share;
+    rays->isotropic = fmax(rays->isotropic, 0.0f);
+    rays->root = load_box(tree_bounds + tree);
+}
+
 #endif

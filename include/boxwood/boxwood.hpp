@@ -10,6 +10,7 @@
 #include "boxwood/bxw.hpp"
 #include "boxwood/collapse.hpp"
 #include "boxwood/compact.hpp"
+#include "boxwood/costed_leaves.hpp"
 #include "boxwood/device.hpp"
 #include "boxwood/environment.hpp"
 #include "boxwood/error.hpp"

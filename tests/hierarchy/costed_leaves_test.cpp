@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Leaves by cost, against a plain recursion in double precision with the chances of the analyser.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "boxwood/analysis.hpp"
+#include "boxwood/costed_leaves.hpp"
+#include "hierarchy/forest_scene.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("hierarchy");
+
+namespace {
+
+constexpr double box_cost = 1.0, primitive_cost = 1.2;
+
+InfluenceRecord plane_area(float share) {
+    InfluenceRecord area{};
+    area.origin[2] = 20.0f;
+    area.right[0] = area.up[1] = 1.0f;
+    area.forward[2] = -1.0f;
+    area.half_width = area.half_height = 4.0f;
+    area.far = 40.0f;
+    area.share = share;
+    return area;
+}
+
+InfluenceRecord point_area(float share) {
+    InfluenceRecord area = plane_area(share);
+    area.point = 1;
+    area.near = 1.0f;
+    area.half_width = area.half_height = 0.5f;
+    return area;
+}
+
+/// One tree of a forest on the host.
+struct Reference {
+    const HostTopology& topology;
+    const std::vector<std::uint32_t>& leaves;
+    AnalysisTree tree;
+    std::vector<double> chances; ///< By node of `tree`.
+    int wrong = 0, leaf_count = 0, split_count = 0;
+
+    Reference(const BuiltForest& built, const std::vector<std::uint32_t>& marks, std::uint32_t which,
+              const std::vector<InfluenceRecord>& areas)
+        : topology(built.topology), leaves(marks),
+          tree(analysis_tree(test_device(), built.forest.topology, built.forest.volumes, {}, which)) {
+        double isotropic = 1.0;
+        chances.assign(tree.nodes.size(), 0.0);
+        for (InfluenceRecord area : areas) {
+            const double share = area.share;
+            isotropic -= share;
+            area.share = 1.0f;
+            const std::vector<NodeMeasures> measures = measure_nodes(tree, std::vector{area});
+            for (std::size_t i = 0; i < chances.size(); ++i) chances[i] += share * measures[i].chance_culled;
+        }
+        const std::vector<NodeMeasures> measures = measure_nodes(tree, {});
+        for (std::size_t i = 0; i < chances.size(); ++i) chances[i] += isotropic * measures[i].surface;
+        cost(topology.root(which), 0);
+    }
+
+    /// The cheaper cost of what is below a node; compares the device's choice where it is not within roundings.
+    double cost(std::uint32_t node, std::uint32_t own) {
+        if (node >= topology.size()) return primitive_cost * chances[own];
+        const double left = cost(topology.children[node].s[0], tree.nodes[own].first_child);
+        const double right = cost(topology.children[node].s[1], tree.nodes[own].first_child + 1);
+        const Span span = span_of(topology, node);
+        const double whole = primitive_cost * chances[own] * (span.last - span.first + 1);
+        const double split = 2.0 * box_cost * chances[own] + left + right;
+        const bool leaf = whole <= split;
+        const bool tie = std::abs(whole - split) <= 1e-4 * whole; // chances are good to 1e-5, see projected_area.h
+        if (!tie && (leaves[node] == 1) != leaf) ++wrong;
+        ++(leaf ? leaf_count : split_count);
+        return std::min(whole, split);
+    }
+};
+
+} // namespace
+
+TEST_CASE("a subtree is one leaf where that costs less") {
+    Device& device = test_device();
+    const std::uint32_t large = small_sizes() ? 60 : 900;
+    const BuiltForest built =
+        build_forest_of(device, scene_of({random_mesh(large, 5.0f, 0.5f, 1), random_mesh(1, 1.0f, 1.0f, 2),
+                                          random_mesh(large / 2, 5.0f, 0.5f, 3), random_mesh(2, 5.0f, 0.5f, 4)}));
+    const std::vector<InfluenceRecord> areas{plane_area(0.5f), point_area(0.25f), plane_area(1.0f)};
+    const std::vector<std::uint32_t> starts{0, 0, 0, 2, 3};
+    const Buffer<InfluenceRecord> area_buffer = upload(device, areas, "areas");
+    const Buffer<std::uint32_t> start_buffer = upload(device, starts, "starts");
+    for (const Tuning& tuning : tunings()) {
+        const TuningScope scope(tuning);
+        const Buffer<std::uint32_t> marks = costed_leaves(device, built.forest.topology, built.forest.volumes,
+                                                          built.forest.tree_bounds, area_buffer, start_buffer);
+        const std::vector<std::uint32_t> leaves = download(device, marks);
+        for (std::uint32_t t = 0; t < 4; ++t) {
+            CAPTURE(t);
+            const Reference reference(built, leaves, t, {areas.begin() + starts[t], areas.begin() + starts[t + 1]});
+            CHECK(reference.wrong == 0);
+            if (t == 1 || t == 3) continue; // one node at most
+            CHECK(reference.split_count > 0);
+            CHECK(reference.leaf_count > 0);
+        }
+        // Slots without a node are no leaves.
+        for (std::uint32_t t = 0; t < 4; ++t) CHECK(leaves[built.topology.offsets[t + 1] - 1] == 0);
+    }
+}
+
+TEST_SUITE_END();
