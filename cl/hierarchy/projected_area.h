@@ -12,10 +12,11 @@
 // Else the outline, by hull_table.h or, for a box across the near plane, as the hull of what lies beyond it, is cut to the
 // rectangle: at each x the outline's two heights are clamped to the rectangle, and what is between them is integrated.
 //
-// Accuracy, e = 2^-24, for what the record's floats say and a box of float corners, R the largest of distance from the origin /
-// depth of its corners: relative (20 R + 24) e for the sum of faces (R = 0 for plane areas). An outline's corners are off by at
-// most d = (14 R + 6) e * (|u| + |p| / (depth * half extent)), u their place in units of the rectangle's half extents and |p|
-// their distance from the origin (no depth and R = 1 for plane areas); its chance then by 6 d + 40 e.
+// Accuracy, e = 2^-24, for what the record's floats say and a box of float corners, R the largest distance from the origin /
+// depth of its corners (0 for plane areas): relative (20 R + 24) e for the sum of faces. An outline's corners, at u in units of
+// the rectangle's half extents, are off by at most d = e (8 D / H + (8 R + 4) |u|), D the corners' largest distance from the
+// origin and H the smaller half extent times the least depth (times 1 for plane areas), and then, culled, the chance by
+// 3 d + 20 e, where a depth is off by at most 6 e D: whether a box just before the rectangle counts is open.
 // Nothing overflows or is NaN from 2^-60 to 2^60: chances stop at LARGEST_CHANCE, and quotients above 2^42 count as 2^42.
 #ifndef BOXWOOD_HIERARCHY_PROJECTED_AREA_H
 #define BOXWOOD_HIERARCHY_PROJECTED_AREA_H

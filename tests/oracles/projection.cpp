@@ -73,7 +73,8 @@ Polygon projection(const InfluenceRecord& area, const Aabb& box, double near) {
     const glm::dvec3 origin = vector(area.origin);
     glm::dvec3 corner[8];
     for (int i = 0; i < 8; ++i)
-        corner[i] = frame * (glm::dvec3((i & 1 ? box.max : box.min)[0], (i & 2 ? box.max : box.min)[1], (i & 4 ? box.max : box.min)[2]) -
+        corner[i] = frame * (glm::dvec3((i & 1 ? box.max : box.min)[0], (i & 2 ? box.max : box.min)[1],
+                                        (i & 4 ? box.max : box.min)[2]) -
                              origin);
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 8; ++i)
