@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hierarchy/random_areas.hpp"
 #include "oracles/projection.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
@@ -47,53 +48,11 @@ std::vector<float> chances(const std::vector<Case>& cases) {
                       upload(test_device(), boxes_of(cases), "boxes"));
 }
 
-glm::dvec3 random_vector(Random& random, double scale) {
-    return scale * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-}
-
-/// Directions along axes, in their planes and oblique.
-glm::dvec3 random_direction(Random& random) {
-    glm::dvec3 v = random_vector(random, 1);
-    const std::uint32_t kind = random.below(4);
-    const std::uint32_t k = random.below(3);
-    if (kind == 0) v[k] = v[(k + 1) % 3] = 0;
-    if (kind == 1) v[k] = 0;
-    return glm::length(v) > 0.01 ? v : glm::dvec3(1, 0, 0);
-}
-
-InfluenceRecord random_area(Random& random, bool point, double scale) {
-    const double near = point ? scale * random.uniform(0.05f, 0.5f) : 0;
-    const double size = point ? 1.0 : scale;
-    return make_area(point, random_vector(random, scale), random_direction(random), size * random.uniform(0.2f, 1.5f),
-                     size * random.uniform(0.2f, 1.5f), near, 10 * scale);
-}
-
-/// A point of the region or a little beside it.
-glm::dvec3 random_place(Random& random, const InfluenceRecord& area, double scale) {
-    const double depth = area.near + scale * random.uniform(-0.3f, 4);
-    const double unit = area.point != 0 ? std::abs(depth) : 1;
-    const glm::dvec3 p(1.2 * random.uniform(-1, 1) * area.half_width * unit,
-                       1.2 * random.uniform(-1, 1) * area.half_height * unit, depth);
-    return glm::dvec3(area.origin[0], area.origin[1], area.origin[2]) + glm::transpose(exact_frame(area)) * p;
-}
-
-/// A box of random size about a point, also flat, a line or a point.
-Aabb random_box(Random& random, double scale, const glm::dvec3& centre) {
-    glm::dvec3 half = glm::abs(random_vector(random, scale)) * std::exp2(-double(random.uniform(-1, 8)));
-    for (int k = 0; k < 3; ++k)
-        if (random.below(12) == 0) half[k] = 0;
-    Aabb box;
-    for (int k = 0; k < 3; ++k) {
-        box.min[k] = static_cast<float>(centre[k] - half[k]);
-        box.max[k] = static_cast<float>(centre[k] + half[k]);
-    }
-    return box;
-}
-
 /// How far apart a chance and the reference may be (projected_area.h), and the references for depths a little to both sides.
 struct Allowed {
     double least[2], most[2];
-    bool sum[2]; ///< The faces were summed: the error is relative.
+    bool sum[2];   ///< The faces were summed: the error is relative.
+    double border; ///< Length of the outline times the size of what its corners' errors are relative to.
 };
 
 Allowed allowed(const Case& c) {
@@ -113,6 +72,10 @@ Allowed allowed(const Case& c) {
     for (const glm::dvec2& p : projection(area, c.box, area.near))
         place = std::max({place, std::abs(p.x), std::abs(p.y)});
     Allowed result;
+    const Polygon outline = projection(area, c.box, area.near);
+    result.border = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        result.border += glm::length(outline[i] - outline[(i + 1) % outline.size()]) * ratio * (1 + place);
     for (int culled = 0; culled < 2; ++culled) {
         const double a = reference_chance(area, c.box, culled != 0, area.near + shift);
         const double b = reference_chance(area, c.box, culled != 0, area.near - shift);
@@ -270,10 +233,9 @@ TEST_CASE("the overlap of two projections") {
             CHECK(smaller <= std::min(a.most[culled], b.most[culled]));
             CHECK(overlap >= 0.0);
             CHECK(overlap <= smaller);
-            // Corners are off by what the chances allow, and the cuts by as much again, relative to the larger of them.
             const double reference = reference_overlap(areas[i], boxes[2 * i], boxes[2 * i + 1], culled != 0);
             const double error = a.most[culled] - a.least[culled] + b.most[culled] - b.least[culled] +
-                                 100 * e * std::max(a.most[culled], b.most[culled]);
+                                 100 * e * std::min(a.border, b.border);
             CHECK(std::abs(overlap - reference) <= 4 * error);
             if (i % 10 == 0) CHECK(overlap >= smaller * (1 - 1e-3) - error);
             apart += overlap <= 0 && smaller > 0;
