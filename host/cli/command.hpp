@@ -36,6 +36,8 @@ Command add_info(CLI::App& tool);
 Command add_trace(CLI::App& tool);
 Command add_render(CLI::App& tool);
 Command add_quality(CLI::App& tool);
+Command add_analyze(CLI::App& tool);
+Command add_study(CLI::App& tool);
 
 /// No device can be used: exit code 4, where another DeviceError is a failure of the work.
 class NoDevice : public Error {

@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The tables that `boxwood quality` prints.
-#include <algorithm>
 #include <iomanip>
-#include <iostream>
 #include <sstream>
 
 #include "cli/quality_report.hpp"
+#include "cli/table.hpp"
 #include "runtime/median.hpp"
 
 namespace boxwood::cli {
 
 namespace {
-
-/// Rows of words in columns as wide as need be, the first to the left and the others to the right.
-class Table {
-public:
-    void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-
-    void print(const std::string& title) const {
-        std::vector<std::size_t> widths;
-        for (const auto& row : rows_) {
-            widths.resize(std::max(widths.size(), row.size()));
-            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-        }
-        std::cout << '\n' << title << '\n';
-        for (const auto& row : rows_) {
-            std::cout << std::left << std::setw(static_cast<int>(widths[0])) << row[0] << std::right;
-            for (std::size_t i = 1; i < row.size(); ++i)
-                std::cout << std::setw(static_cast<int>(widths[i] + 2)) << row[i];
-            std::cout << '\n';
-        }
-    }
-
-private:
-    std::vector<std::vector<std::string>> rows_;
-};
-
-std::string fixed(double value, int digits) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
-}
 
 /// Sums of scenes of any size: six digits.
 std::string sum(double value) {

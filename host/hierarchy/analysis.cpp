@@ -2,7 +2,6 @@
 #include "boxwood/analysis.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "hierarchy/projection.hpp"
 
@@ -81,22 +80,25 @@ double price(const AnalysisNode& node) {
     return node.children == 0 ? primitive_price * node.primitives : box_price * node.children;
 }
 
-SiblingOverlap overlap_to(const AnalysisTree& tree, std::span<const NodeMeasures> measures, std::uint32_t level) {
-    NodeMeasures sum;
-    for (std::size_t i = 0; i < tree.nodes.size() && tree.nodes[i].level < level; ++i) {
-        sum.overlap += measures[i].overlap;
-        sum.overlap_culled += measures[i].overlap_culled;
-        sum.smaller += measures[i].smaller;
-        sum.smaller_culled += measures[i].smaller_culled;
-    }
-    return {level, sum.smaller > 0.0 ? sum.overlap / sum.smaller : 0.0,
-            sum.smaller_culled > 0.0 ? sum.overlap_culled / sum.smaller_culled : 0.0};
+/// The figures that a node adds to its level, but for the overlap with its siblings.
+LevelFigures figures_of(const AnalysisNode& node, const NodeMeasures& measured) {
+    const double cost = price(node);
+    LevelFigures figures;
+    figures.nodes = 1;
+    figures.leaves = node.children == 0 ? 1 : 0;
+    figures.sah = cost * measured.surface;
+    figures.pah = cost * measured.chance;
+    figures.pah_culled = cost * measured.chance_culled;
+    return figures;
 }
 
-template <class Count>
-void count(std::vector<Count>& counts, std::size_t index) {
-    if (index >= counts.size()) counts.resize(index + 1);
-    ++counts[index];
+LevelFigures overlap_of(const NodeMeasures& parent) {
+    LevelFigures figures;
+    figures.overlap = parent.overlap;
+    figures.overlap_culled = parent.overlap_culled;
+    figures.smaller = parent.smaller;
+    figures.smaller_culled = parent.smaller_culled;
+    return figures;
 }
 
 } // namespace
@@ -115,25 +117,41 @@ std::vector<NodeMeasures> measure_nodes(const AnalysisTree& tree, std::span<cons
     return measures;
 }
 
+LevelFigures& LevelFigures::operator+=(const LevelFigures& other) {
+    nodes += other.nodes;
+    leaves += other.leaves;
+    sah += other.sah;
+    pah += other.pah;
+    pah_culled += other.pah_culled;
+    overlap += other.overlap;
+    overlap_culled += other.overlap_culled;
+    smaller += other.smaller;
+    smaller_culled += other.smaller_culled;
+    return *this;
+}
+
+LevelFigures Analysis::down_to(std::uint32_t level) const {
+    LevelFigures sum;
+    for (std::size_t i = 0; i < levels.size() && i <= level; ++i) sum += levels[i];
+    return sum;
+}
+
 Analysis analysis_of(const AnalysisTree& tree, std::span<const NodeMeasures> measures) {
+    Analysis start;
+    start.levels.resize(tree.nodes.empty() ? 0 : tree.nodes.back().level + 1);
     const auto per_node = [&](const NodeView& node, Analysis& sums) {
         const NodeMeasures& measured = measures[node.index];
-        const double cost = price(node.node());
-        sums.sah += cost * measured.surface;
-        sums.pah += cost * measured.chance;
-        sums.pah_culled += cost * measured.chance_culled;
-        count(sums.nodes_by_level, node.level());
-        if (!node.is_leaf()) return;
-        ++sums.leaves;
+        sums.levels[node.level()] += figures_of(node.node(), measured);
+        if (!node.is_leaf()) {
+            sums.levels[node.level() + 1] += overlap_of(measured);
+            return;
+        }
         sums.primitives += node.primitives();
-        count(sums.leaves_by_size, node.primitives());
+        if (node.primitives() >= sums.leaves_by_size.size()) sums.leaves_by_size.resize(node.primitives() + 1);
+        ++sums.leaves_by_size[node.primitives()];
     };
-    return analyze(tree, Analysis{}, per_node, [&](Analysis& sums) {
-        sums.nodes = tree.nodes.size();
-        sums.depth = tree.nodes.empty() ? 0 : tree.nodes.back().level;
-        constexpr std::uint32_t all = std::numeric_limits<std::uint32_t>::max();
-        for (const std::uint32_t level : {4u, 7u, 10u, 15u, all})
-            sums.overlap.push_back(overlap_to(tree, measures, level));
+    return analyze(tree, std::move(start), per_node, [](Analysis& sums) {
+        for (const LevelFigures& level : sums.levels) sums.all += level;
         return std::move(sums);
     });
 }

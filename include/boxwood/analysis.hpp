@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -91,25 +92,37 @@ struct NodeMeasures {
 /// By node. Without areas all but the surface is zero. O(nodes areas).
 std::vector<NodeMeasures> measure_nodes(const AnalysisTree& tree, std::span<const InfluenceRecord> areas);
 
-/// Overlap of siblings down to a level (paper 9.4.1): overlaps over smaller projections, 0 where those have no area.
-struct SiblingOverlap {
-    std::uint32_t level = 0; ///< Of the deepest siblings counted.
-    double all = 0.0;
-    double culled = 0.0;
+/// Sums over the nodes of one level, or of several.
+struct LevelFigures {
+    std::uint64_t nodes = 0;
+    std::uint64_t leaves = 0;
+    double sah = 0.0; ///< Expected cost of an isotropic ray that meets the root.
+    double pah = 0.0; ///< Expected cost of a ray of the areas, whether it meets the root or not.
+    double pah_culled = 0.0;
+    double overlap = 0.0; ///< Of siblings on this level, as in NodeMeasures of their parents.
+    double overlap_culled = 0.0;
+    double smaller = 0.0;
+    double smaller_culled = 0.0;
+
+    LevelFigures& operator+=(const LevelFigures& other);
+    /// Overlaps over smaller projections (paper 9.4.1), 0 where those have no area.
+    double overlap_ratio() const { return smaller > 0.0 ? overlap / smaller : 0.0; }
+    double overlap_ratio_culled() const { return smaller_culled > 0.0 ? overlap_culled / smaller_culled : 0.0; }
 };
+
+/// The levels down to which the paper measures overlap; the last is all.
+inline constexpr std::uint32_t overlap_levels[] = {4, 7, 10, 15, std::numeric_limits<std::uint32_t>::max()};
 
 /// Figures of a whole tree.
 struct Analysis {
-    std::uint64_t nodes = 0;
-    std::uint64_t leaves = 0;
+    std::vector<LevelFigures> levels; ///< By level, the root's first.
+    LevelFigures all;
     std::uint64_t primitives = 0;
-    std::uint32_t depth = 0; ///< Level of the deepest node.
-    std::vector<std::uint64_t> nodes_by_level;
     std::vector<std::uint64_t> leaves_by_size; ///< leaves_by_size[n]: leaves of n primitives.
-    double sah = 0.0;                          ///< Expected cost of an isotropic ray that meets the root.
-    double pah = 0.0; ///< Expected cost of a ray of the areas, whether it meets the root or not.
-    double pah_culled = 0.0;
-    std::vector<SiblingOverlap> overlap; ///< Down to the levels 4, 7, 10, 15, and all.
+
+    std::uint32_t depth() const { return levels.empty() ? 0 : static_cast<std::uint32_t>(levels.size() - 1); }
+    /// Sums over the levels 0 to `level`.
+    LevelFigures down_to(std::uint32_t level) const;
 };
 
 /// `measures` as from measure_nodes over the same tree.

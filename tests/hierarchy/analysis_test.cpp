@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "boxwood/analysis.hpp"
 #include "boxwood/build.hpp"
@@ -148,14 +147,15 @@ TEST_CASE("analysis: two boxes side by side, by hand") {
     const double root = 2 * (1.5 * 1 + 1 * 4 + 4 * 1.5), child = 6;
     CHECK(measures[1].surface == doctest::Approx(child / root));
     Analysis result = analysis_of(tree, measures);
-    CHECK(result.sah == doctest::Approx(2.0 + 2 * 3 * 1.2 * child / root));
-    CHECK(result.pah == doctest::Approx(2.0 * 1.5 / 16 + 2 * 3 * 1.2 / 16));
-    CHECK(result.pah_culled == doctest::Approx(result.pah));
-    CHECK(result.overlap[0].all == doctest::Approx(0.5));
+    CHECK(result.all.sah == doctest::Approx(2.0 + 2 * 3 * 1.2 * child / root));
+    CHECK(result.all.pah == doctest::Approx(2.0 * 1.5 / 16 + 2 * 3 * 1.2 / 16));
+    CHECK(result.all.pah_culled == doctest::Approx(result.all.pah));
+    CHECK(result.down_to(4).overlap_ratio() == doctest::Approx(0.5));
     CHECK(result.leaves_by_size == std::vector<std::uint64_t>{0, 0, 0, 2});
-    CHECK(result.nodes_by_level == std::vector<std::uint64_t>{1, 2});
+    CHECK(result.levels[1].nodes == 2);
+    CHECK(result.down_to(0).overlap == 0.0);
     CHECK(result.primitives == 6);
-    CHECK(result.depth == 1);
+    CHECK(result.depth() == 1);
 
     // Only a quarter of each box is in the rectangle's upper right half unit; nothing of what is behind it counts.
     area.origin[0] = -1.25f;
@@ -197,11 +197,9 @@ TEST_CASE("analysis: stored trees of every layout hold every triangle once, in n
                 const AnalysisTree& main = trees[levels == Levels::one ? 0 : 1];
                 CHECK(main.nodes[0].primitives == triangles + (levels == Levels::one ? 1 : 0));
                 const Analysis result = analysis_of(main, measure_nodes(main, {}));
-                CHECK(result.depth == image.bottom_depth);
+                CHECK(result.depth() == image.bottom_depth);
                 CHECK(result.primitives == main.nodes[0].primitives);
-                CHECK(std::accumulate(result.nodes_by_level.begin(), result.nodes_by_level.end(), std::uint64_t{0}) ==
-                      result.nodes);
-                if (layout == Layout::binary) CHECK(result.nodes == 2 * result.primitives - 1);
+                if (layout == Layout::binary) CHECK(result.all.nodes == 2 * result.primitives - 1);
                 // A function of the caller's: nodes whose box reaches out of their parent's, and edges to wrong parents.
                 const auto outside = [&](const NodeView& node, std::size_t& sum) {
                     for (std::uint32_t i = 0; i < node.children(); ++i) {
@@ -254,9 +252,9 @@ TEST_CASE("analysis: a topology down to marked leaves, and its SAH cost in one p
         const AnalysisTree tree =
             analysis_tree(device, built.forest.topology, built.forest.volumes, upload(device, marks, "leaves").view());
         const Analysis result = analysis_of(tree, measure_nodes(tree, {}));
-        CHECK(result.nodes == nodes);
+        CHECK(result.all.nodes == nodes);
         CHECK(result.primitives == count);
-        CHECK(result.sah == doctest::Approx(sah));
+        CHECK(result.all.sah == doctest::Approx(sah));
         CHECK(result.leaves_by_size.size() <= 4);
     }
 }
