@@ -5,7 +5,7 @@
 
 BOXWOOD_SHARED_BEGIN
 
-/// An influence area as the device sees it. A point p has the coordinates x, y, z = dot(p - origin, right | up | forward).
+/// An influence area as the device sees it. Rays run along its lines either way: shadow rays run towards a light. A point p has the coordinates x, y, z = dot(p - origin, right | up | forward).
 /// Plane: rays leave the rectangle |x| <= half_width, |y| <= half_height, z = 0 along forward; the region is
 /// the box over it up to z = far. Point: rays leave the rectangle |x| <= near * half_width, |y| <= near * half_height, z = near in
 /// the direction from the origin; the region is the frustum |x| <= z * half_width, |y| <= z * half_height, near <= z <= far.
@@ -19,7 +19,7 @@ typedef struct InfluenceRecord {
     float forward[3];
     float near;        ///< 0 for plane areas.
     float far;         ///< Above near.
-    float cos_tolerance; ///< Cosine of the largest angle between an affine ray and the area's ray through its origin.
+    float sin_tolerance; ///< Sine of the largest angle, up to 90 degrees, between an affine ray and the area's through its origin.
     float share;       ///< Of all rays: those that follow this area, in [0, 1].
     uint reserved;     ///< Zero.
 } InfluenceRecord;

@@ -18,7 +18,7 @@ namespace boxwood {
 enum class AreaKind { plane, point };
 
 /// A region of a scene where rays are parallel (plane) or come from one point (point): thesis chapter 3, paper section 4. World
-/// coordinates.
+/// coordinates. What matters are the lines: rays that run back along them, as shadow rays do towards a light, are the area's too.
 struct InfluenceArea {
     AreaKind kind = AreaKind::plane;
     glm::dvec3 origin{0.0};               ///< Plane: centre of the rectangle that rays leave. Point: the eye.
@@ -31,8 +31,14 @@ struct InfluenceArea {
     std::optional<double> share;    ///< Of all rays, those that follow this area; see influence_records.
 };
 
+/// Most areas that there can be.
+inline constexpr std::size_t most_areas = 4096;
+/// Largest tangent of half a field of view; its inverse is the smallest.
+inline constexpr double largest_tangent = 0x1p30;
+
 /// Throws InputError(source, "area I", what) unless every area is finite, has extents above 0, a direction other than 0, near
-/// below far (above 0 for point areas), a tolerance in [0, 90] and shares in [0, 1] that add up to at most 1.
+/// below far (above 0 for point areas), a tolerance in [0, 90] and shares in [0, 1] that add up to at most 1. Coordinates and
+/// lengths go to largest_coordinate, lengths down to its inverse. Throws CapacityError for more than most_areas.
 void validate(std::span<const InfluenceArea> areas, const std::string& source);
 
 /// The areas as the device sees them, the directions normalised; `up` is the world's +y made perpendicular, or +z where the
@@ -46,11 +52,13 @@ std::vector<InfluenceRecord> influence_records(std::span<const InfluenceArea> ar
 /// "tolerance_degrees" and "share"; other keys are not read. Throws InputError naming the file and the index of the area.
 std::vector<InfluenceArea> load_areas(const std::filesystem::path& file);
 
-/// The region of an area (thesis 5.3): closed, in double precision. A box is closed too.
+/// The region of an area (thesis 5.3): closed, in double precision, by the record's floats as they are. A box is closed too.
 bool contains(const InfluenceRecord& area, const glm::dvec3& point);
 bool encloses(const InfluenceRecord& area, const Aabb& box);
-/// Separating axes (thesis A.5) with the axis sets of a box and of a frustum.
+/// Separating axes (thesis A.5) with the axis sets of a box and of a frustum. True also where the gap is too small for double
+/// precision to tell.
 bool intersects(const InfluenceRecord& area, const Aabb& box);
+/// Rounded outwards.
 Aabb enclosing_box(const InfluenceRecord& area);
 /// The corners: near face, then far face, each (-,-), (+,-), (-,+), (+,+).
 std::array<glm::dvec3, 8> corners(const InfluenceRecord& area);

@@ -126,7 +126,7 @@ InfluenceRecord make_area(bool point, const glm::dvec3& origin, const glm::dvec3
     area.half_height = static_cast<float>(half_height);
     area.near = static_cast<float>(near);
     area.far = static_cast<float>(far);
-    area.cos_tolerance = 0.99996f;
+    area.sin_tolerance = 0.0087f;
     area.share = 0.5f;
     return area;
 }
