@@ -80,6 +80,7 @@ void add_build_options(CLI::App& command, BuildChoice& choice);
 CLI::Option* add_levels(CLI::App& command, BuildOptions& options);
 CLI::Option* add_extents(CLI::App& command, BuildOptions& options);
 CLI::Option* add_measure(CLI::App& command, BuildOptions& options);
+CLI::Option* add_builder(CLI::App& command, BuildOptions& options);
 CLI::Option* add_morton(CLI::App& command, BuildOptions& options);
 
 /// The kinds of volumes.

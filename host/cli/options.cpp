@@ -52,6 +52,7 @@ void BuildChoice::check() const {
         throw UsageError(
             "--layout wide8 holds axis-aligned boxes only: leave it out, or use --layout binary, with --bounds " +
             std::string(name(options.bounds.kind)));
+    if (options.builder == Builder::pah) throw UsageError("--builder pah needs influence areas");
     if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
         throw UsageError("--extents corners is of use with --bounds obb-moments only");
     if (options.bounds.measure == Measure::area && options.bounds.kind == Bounds::aabb)
@@ -90,6 +91,15 @@ CLI::Option* add_morton(CLI::App& command, BuildOptions& options) {
         ->check(CLI::IsMember({30, 63}));
 }
 
+CLI::Option* add_builder(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<std::string>(
+            "--builder", [&](const std::string& word) { options.builder = to_builder(word); },
+            "Morton codes (lbvh, default): a fast build; surface area heuristic (sah): fast rays; halves in space "
+            "(midpoint); projected area heuristic (pah): fast rays of influence areas")
+        ->check(CLI::IsMember({"lbvh", "sah", "midpoint", "pah"}));
+}
+
 void add_build_options(CLI::App& command, BuildChoice& choice) {
     BuildOptions& options = choice.options;
     choice.declared = {
@@ -106,6 +116,7 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
             ->check(CLI::IsMember(bounds_words())),
         add_extents(command, options),
         add_measure(command, options),
+        add_builder(command, options),
         add_morton(command, options),
     };
 }

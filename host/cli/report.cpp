@@ -87,6 +87,7 @@ Json base_report(const Device& device, const Input& input, const Prepared& prepa
     if (prepared.report) {
         options["extents"] = name(prepared.options.bounds.extents);
         options["measure"] = name(prepared.options.bounds.measure);
+        options["builder"] = name(prepared.options.builder);
         options["morton"] = static_cast<int>(prepared.options.morton);
     }
     std::vector<std::string> requirement_words = words(requirements(input.scene, prepared.options));

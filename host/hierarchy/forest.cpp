@@ -8,35 +8,40 @@
 #include "boxwood/reduce.hpp"
 #include "boxwood/segmented_reduce.hpp"
 #include "boxwood/volumes.hpp"
+#include "hierarchy/topdown.hpp"
 
 namespace boxwood {
 
 namespace {
 
+/// Launches count under `stage`, or under their `own` where that is empty.
+Stage named(Device& device, const std::string& stage, const char* own) {
+    return Stage(device, stage.empty() ? own : stage);
+}
+
 template <class Key>
 Forest build_with_keys(Device& device, BufferView<const Aabb> boxes, Buffer<std::uint32_t> offsets, KeyFormat format,
                        const std::string& stage) {
-    const auto named = [&](const char* own) { return Stage(device, stage.empty() ? own : stage); };
     Forest forest;
     {
-        const Stage bounds = named("bounds");
+        const Stage bounds = named(device, stage, "bounds");
         forest.tree_bounds = bounds_of_trees(device, boxes, offsets);
     }
     Buffer<Key> keys = make_scratch<Key>(device, boxes.size(), "Morton keys");
     Buffer<std::uint32_t> order = make_scratch<std::uint32_t>(device, boxes.size(), "sorted order");
     {
-        const Stage morton = named("morton");
+        const Stage morton = named(device, stage, "morton");
         morton_keys<Key>(device, boxes, offsets, forest.tree_bounds, format, keys, order);
     }
     {
-        const Stage sort = named("sort");
+        const Stage sort = named(device, stage, "sort");
         radix_sort<Key>(device, keys, order, 0, format.key_bits);
     }
     {
-        const Stage hierarchy = named("hierarchy");
+        const Stage hierarchy = named(device, stage, "hierarchy");
         forest.topology = lbvh<Key>(device, keys, format, std::move(order), std::move(offsets));
     }
-    const Stage volumes = named("volumes");
+    const Stage volumes = named(device, stage, "volumes");
     forest.volumes = aabb_volumes(device, forest.topology, boxes);
     return forest;
 }
@@ -62,6 +67,24 @@ Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vec
     if (trees == 1 && format.key_bits <= 32)
         return build_with_keys<std::uint32_t>(device, boxes, std::move(starts), format, stage);
     return build_with_keys<std::uint64_t>(device, boxes, std::move(starts), format, stage);
+}
+
+Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
+                    const TopDownOptions& options, const std::string& stage) {
+    Buffer<std::uint32_t> starts = upload(device, offsets, "offsets of trees");
+    Forest forest;
+    {
+        const Stage bounds = named(device, stage, "bounds");
+        forest.tree_bounds = bounds_of_trees(device, boxes, starts);
+    }
+    {
+        const Stage hierarchy = named(device, stage, "hierarchy");
+        forest.topology =
+            topdown_within(device, boxes, {}, std::move(starts), forest.tree_bounds, {}, {}, options, false).topology;
+    }
+    const Stage volumes = named(device, stage, "volumes");
+    forest.volumes = aabb_volumes(device, forest.topology, boxes);
+    return forest;
 }
 
 } // namespace boxwood

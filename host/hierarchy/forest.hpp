@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "boxwood/build.hpp"
 #include "boxwood/morton.hpp"
+#include "boxwood/topdown.hpp"
 #include "boxwood/topology.hpp"
 #include "shared/aabb.h"
 #include "shared/obb.h"
@@ -24,6 +26,14 @@ struct Forest {
 /// 3.6.1). No range is empty. With a `stage` all launches count under it; without, each under its own.
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
                     MortonBits morton, const std::string& stage = "");
+
+/// The same by splitting nodes from the roots down.
+Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
+                    const TopDownOptions& options, const std::string& stage = "");
+
+/// How a builder other than lbvh splits nodes whose leaves test `block` primitives at once. Throws InputError for pah, which needs
+/// influence areas.
+TopDownOptions topdown_options(Builder builder, std::uint32_t block);
 
 /// The box of the primitives of each tree, one per range of `offsets`.
 Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets);

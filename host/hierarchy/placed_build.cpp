@@ -32,6 +32,13 @@ Buffer<Aabb> triangle_boxes(Device& device, const Geometry& geometry) {
     return boxes;
 }
 
+/// Leaves of wide8 test four triangles at once; instances are never tested together.
+Forest forest_over(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
+                   const BuildOptions& options, std::uint32_t block, const std::string& stage = "") {
+    if (options.builder == Builder::lbvh) return build_forest(device, boxes, offsets, options.morton, stage);
+    return build_forest(device, boxes, offsets, topdown_options(options.builder, block), stage);
+}
+
 /// Lays the forest's nodes out for traversal and keeps them in `tree`.
 void collapse_bottom(Device& device, const Forest& forest, const Geometry& geometry, Tree& tree) {
     const Stage stage(device, "collapse");
@@ -98,7 +105,7 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     parts.offsets = triangle_offsets(placed);
     {
         const Buffer<Aabb> boxes = triangle_boxes(device, parts.geometry);
-        parts.bottom = build_forest(device, boxes, parts.offsets, options.morton);
+        parts.bottom = forest_over(device, boxes, parts.offsets, options, tree.layout == Layout::wide8 ? 4 : 1);
     }
     lay_out(device, placed, options, parts, tree);
     device.finish();
@@ -171,7 +178,7 @@ void build_top_level(Device& device, const Scene& scene, const BuildOptions& opt
     const Buffer<Aabb> boxes = make_scratch<Aabb>(device, count, "boxes of instances");
     launch(device, {"bounds/primitive_bounds.cl", "instance_bounds"}, "instance boxes", count, tree.instances,
            parts.bottom.tree_bounds, boxes, count);
-    parts.top = build_forest(device, boxes, {0, count}, options.morton, "top_level");
+    parts.top = forest_over(device, boxes, {0, count}, options, 1, "top_level");
     if (tree.bounds != Bounds::aabb)
         parts.top.boxes = obb_volumes(device, parts.top.topology, parts.top.volumes, tree.instances, parts.mesh_boxes,
                                       options.bounds);

@@ -32,12 +32,13 @@ double device_ms(const cl::Event& event) {
 DeviceState::DeviceState(cl::Device device_, DeviceInfo info_)
     : device(std::move(device_)), info(std::move(info_)), context(device), queue(make_queue(context, device)) {}
 
-const cl::Program& DeviceState::program(const std::string& file, const std::string& options) {
-    const std::string key = file + '\n' + options;
+const cl::Program& DeviceState::program(const std::string& file, const std::string& options,
+                                        const std::string& source) {
+    const std::string key = file + '\n' + options + '\n' + source;
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
 
     const auto start = std::chrono::steady_clock::now();
-    const std::string text = resolve_kernel_text(file);
+    const std::string text = resolve_kernel_text(file, source);
     cl::Program built(context, text);
     try {
         built.build(device, options.c_str());
@@ -48,11 +49,12 @@ const cl::Program& DeviceState::program(const std::string& file, const std::stri
     return programs_.emplace(key, std::move(built)).first->second;
 }
 
-cl::Kernel& DeviceState::kernel(const std::string& file, const std::string& name, const std::string& options) {
-    const std::string key = file + '\n' + options + '\n' + name;
+cl::Kernel& DeviceState::kernel(const std::string& file, const std::string& name, const std::string& options,
+                                const std::string& source) {
+    const std::string key = file + '\n' + options + '\n' + name + '\n' + source;
     if (const auto found = kernels_.find(key); found != kernels_.end()) return found->second;
     try {
-        return kernels_.emplace(key, cl::Kernel(program(file, options), name.c_str())).first->second;
+        return kernels_.emplace(key, cl::Kernel(program(file, options, source), name.c_str())).first->second;
     } catch (const cl::Error& error) {
         throw DeviceError(error.err(), error.what(), name, "no such kernel in " + file);
     }

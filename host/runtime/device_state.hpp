@@ -32,8 +32,9 @@ public:
     std::string stage; ///< Name of the innermost Stage.
     double compile_ms = 0.0;
 
-    /// The kernel `name` of `file` compiled with `options`; compiled at most once. Throws ProgramError.
-    cl::Kernel& kernel(const std::string& file, const std::string& name, const std::string& options);
+    /// The kernel `name` of `file` compiled with `options` and `source` inserted; compiled at most once. Throws ProgramError.
+    cl::Kernel& kernel(const std::string& file, const std::string& name, const std::string& options,
+                       const std::string& source = {});
 
     /// Called after the first launch of a kernel, which is when some devices (PoCL) finish compiling it: waits for it and
     /// counts what was not device time since `start` as compilation.
@@ -61,7 +62,7 @@ private:
         cl::Event event;
     };
 
-    const cl::Program& program(const std::string& file, const std::string& options);
+    const cl::Program& program(const std::string& file, const std::string& options, const std::string& source);
     void resolve_pending();
 
     std::map<std::string, cl::Program> programs_;

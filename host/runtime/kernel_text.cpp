@@ -43,14 +43,19 @@ std::optional<std::string> included_file(const std::string& line) {
     return line.substr(open + 1, close - open - 1);
 }
 
-void append(const std::string& file, const std::string& includer, std::set<std::string>& seen, std::ostream& out) {
+/// Stands for the text that a launch brings along.
+constexpr const char* insertion_point = "runtime/inserted.h";
+
+void append(const std::string& file, const std::string& includer, const std::string& inserted,
+            std::set<std::string>& seen, std::ostream& out) {
     if (!seen.insert(file).second) return;
     out << "#line 1 \"" << file << "\"\n";
-    std::istringstream lines(load(file, includer));
+    const bool own = file == insertion_point && !inserted.empty();
+    std::istringstream lines(own ? inserted : load(file, includer));
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
         if (const auto include = included_file(line)) {
-            append(*include, file, seen, out);
+            append(*include, file, inserted, seen, out);
             out << "#line " << number + 1 << " \"" << file << "\"\n";
         } else {
             out << line << '\n';
@@ -70,10 +75,10 @@ std::vector<std::string> kernel_files() {
     return names;
 }
 
-std::string resolve_kernel_text(const std::string& file) {
+std::string resolve_kernel_text(const std::string& file, const std::string& inserted) {
     std::ostringstream out;
     std::set<std::string> seen;
-    append(file, file, seen, out);
+    append(file, file, inserted, seen, out);
     return out.str();
 }
 

@@ -22,8 +22,8 @@ void add_kernels(const std::vector<KernelText>& table);
 std::vector<std::string> kernel_files();
 
 /// The text of `file` with every `#include "..."` of an embedded file replaced by that file, once, with #line marks.
-/// Read from the folder BOXWOOD_KERNEL_DIR instead when that is set and has the file. Throws ProgramError when
-/// a file is missing.
-std::string resolve_kernel_text(const std::string& file);
+/// Read from the folder BOXWOOD_KERNEL_DIR instead when that is set and has the file. `inserted`, if any, stands
+/// in for runtime/inserted.h and may include embedded files too. Throws ProgramError when a file is missing.
+std::string resolve_kernel_text(const std::string& file, const std::string& inserted = {});
 
 } // namespace boxwood

@@ -21,7 +21,7 @@ std::string build_options(const Device& device, const Defines& defines) {
 }
 
 cl::Kernel& find(Device& device, const KernelRef& kernel) {
-    return device.state().kernel(kernel.file, kernel.name, build_options(device, kernel.defines));
+    return device.state().kernel(kernel.file, kernel.name, build_options(device, kernel.defines), kernel.source);
 }
 
 } // namespace

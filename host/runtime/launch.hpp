@@ -21,6 +21,7 @@ struct KernelRef {
     std::string file;
     std::string name;
     Defines defines = {};
+    std::string source = {}; ///< Text in place of cl/runtime/inserted.h.
 };
 
 /// How a launch over `count` elements is cut: `slices` work-items with `length` consecutive elements each (the last

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "boxwood/bounds.hpp"
 #include "boxwood/device.hpp"
@@ -11,12 +12,25 @@
 
 namespace boxwood {
 
+/// What makes the topology of a tree.
+enum class Builder {
+    lbvh,     ///< Sorted Morton codes: fast.
+    sah,      ///< Top-down by the surface area heuristic: trees that are faster to traverse.
+    midpoint, ///< Top-down, halving the longest axis in space.
+    pah,      ///< Top-down by the projected area heuristic: for rays that follow influence areas.
+};
+
+/// The words used in options, reports and on the command line. to_builder throws InputError listing them.
+std::string_view name(Builder builder);
+Builder to_builder(std::string_view word);
+
 /// How to build a tree.
 struct BuildOptions {
     Levels levels = Levels::automatic; ///< automatic: two when a mesh is placed more than once, else one.
     Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
-    MortonBits morton = MortonBits::bits30;
-    BoundsOptions bounds = {}; ///< Oriented boxes need the binary layout.
+    Builder builder = Builder::lbvh;
+    MortonBits morton = MortonBits::bits30; ///< Of lbvh.
+    BoundsOptions bounds = {};              ///< Oriented boxes need the binary layout.
     /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.
     bool measure_overlap = false;
 };

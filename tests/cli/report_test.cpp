@@ -64,6 +64,7 @@ TEST_CASE("report: the keys of every command") {
                                    {"bounds", "aabb"},
                                    {"extents", "exact"},
                                    {"measure", "volume"},
+                                   {"builder", "lbvh"},
                                    {"morton", 30}});
     CHECK(build["quality"]["sah"] > 0.0);
 
@@ -103,6 +104,7 @@ TEST_CASE("report: the keys of every command") {
                                                     {"bounds", "obb-moments"},
                                                     {"extents", "corners"},
                                                     {"measure", "area"},
+                                                    {"builder", "lbvh"},
                                                     {"morton", 30}});
     CHECK(report(tool, "b.json")["requirements"] == Json{"two-levels", "oriented-boxes"});
     tool.succeed("trace forest.bxw --resolution 32x16 --report trace.json");

@@ -38,19 +38,30 @@ struct Report {
 /// Lets the threads of one side go to sleep before the other is timed: both pools spin for a while after their work.
 void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }
 
+/// A builder of ours and Embree's that makes trees of about the same quality.
+struct Match {
+    Builder builder;
+    RTCBuildQuality quality;
+    const char* suffix; ///< Of the names in the report.
+};
+constexpr Match matches[] = {{Builder::lbvh, RTC_BUILD_QUALITY_LOW, ""},
+                             {Builder::sah, RTC_BUILD_QUALITY_MEDIUM, "_sah"}};
+
+BuildOptions options_of(const Match& match) {
+    return {.levels = Levels::one, .layout = Layout::wide8, .builder = match.builder};
+}
+
 /// Builds by both, alternating, each from triangles that it already holds. `ready` is wall clock up to a tree that can be
-/// traversed, on both sides. The tree that is left in `peer` is the LOW one.
-void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, int runs, Report& report) {
-    std::vector<double> low, medium, to_volumes, ready;
+/// traversed, on both sides. The tree that is left in `peer` is that of the match.
+void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, const Match& match, int runs, Report& report) {
+    std::vector<double> theirs, to_volumes, ready;
     BuildReport built;
-    const auto build_ours = [&] { build(device, flat, {.levels = Levels::one, .layout = Layout::wide8}, &built); };
+    const auto build_ours = [&] { build(device, flat, options_of(match), &built); };
     build_ours(); // compiles
-    peer.build(flat.meshes[0], RTC_BUILD_QUALITY_LOW);
+    peer.build(flat.meshes[0], match.quality);
     for (int run = 0; run < runs; ++run) {
         settle();
-        medium.push_back(peer.build(flat.meshes[0], RTC_BUILD_QUALITY_MEDIUM));
-        settle();
-        low.push_back(peer.build(flat.meshes[0], RTC_BUILD_QUALITY_LOW));
+        theirs.push_back(peer.build(flat.meshes[0], match.quality));
         settle();
         build_ours();
         double ms = 0.0;
@@ -61,9 +72,10 @@ void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, int run
     }
     const double kilo_triangles = static_cast<double>(flat.triangle_count()) * 1e-3; // per ms: millions per second
     const auto rate = [&](const std::vector<double>& ms) { return kilo_triangles / median(ms); };
-    report.add("build_low", rate(to_volumes), rate(low), "Mtri/s");
-    report.add("build_medium", rate(to_volumes), rate(medium), "Mtri/s");
-    report.add("ready", rate(ready), rate(low), "Mtri/s");
+    const bool low = match.quality == RTC_BUILD_QUALITY_LOW;
+    report.add(low ? "build_low" : "build_medium", rate(to_volumes), rate(theirs), "Mtri/s");
+    report.add(std::string("ready") + match.suffix, rate(ready), rate(theirs), "Mtri/s");
+    std::printf("SAH cost %.2f\n", built.sah);
 }
 
 /// Prints how many answers agree; a hit agrees when the distances do to 1e-4, or the triangles do.
@@ -78,8 +90,8 @@ void compare(const std::string& name, const std::vector<Hit>& ours, const std::v
     std::printf("%s: %zu rays, %zu hits, %zu agree with Embree\n", name.c_str(), ours.size(), hits, same);
 }
 
-void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, const Batch& batch, int runs,
-                   Report& report) {
+void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, const Batch& batch,
+                   const std::string& suffix, int runs, Report& report) {
     const std::size_t count = batch.rays.size();
     if (count == 0) return;
     const Buffer<Ray> rays = upload(device, batch.rays, "rays");
@@ -105,11 +117,11 @@ void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, con
     const auto rate = [&](int i) { return static_cast<double>(count) * 1e-3 / median(times[i]); };
     compare(batch.name, download(device, hits), their_hits);
     if (batch.name != "shadow") {
-        report.add("closest_" + batch.name, rate(1), rate(0), "Mray/s");
-        report.add("closest_" + batch.name + "_portable", rate(2), rate(0), "Mray/s");
+        report.add("closest_" + batch.name + suffix, rate(1), rate(0), "Mray/s");
+        report.add("closest_" + batch.name + "_portable" + suffix, rate(2), rate(0), "Mray/s");
     }
-    report.add("any_" + batch.name, rate(4), rate(3), "Mray/s");
-    report.add("any_" + batch.name + "_portable", rate(5), rate(3), "Mray/s");
+    report.add("any_" + batch.name + suffix, rate(4), rate(3), "Mray/s");
+    report.add("any_" + batch.name + "_portable" + suffix, rate(5), rate(3), "Mray/s");
 }
 
 int run(int argc, char** argv) {
@@ -129,9 +141,12 @@ int run(int argc, char** argv) {
                 device.info().name.c_str());
     EmbreePeer peer;
     Report report;
-    measure_builds(device, flat, peer, runs, report);
-    const Tree tree = build(device, flat, {.levels = Levels::one, .layout = Layout::wide8});
-    for (const Batch& batch : make_batches(device, flat, tree)) measure_batch(device, tree, peer, batch, runs, report);
+    for (const Match& match : matches) {
+        measure_builds(device, flat, peer, match, runs, report);
+        const Tree tree = build(device, flat, options_of(match));
+        for (const Batch& batch : make_batches(device, flat, tree))
+            measure_batch(device, tree, peer, batch, match.suffix, runs, report);
+    }
 
     if (file.empty()) return 0;
     const Json json{{"scene", name},       {"triangles", flat.triangle_count()},

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// What a top-down builder asks of a strategy, and the strategies there are (paper sections 7 and 8.1, thesis 4 and 5.1).
+//
+//   measure  float NAME(const Distribution* d, Box box)                                  chance that a ray meets the box
+//   cost     float NAME(const Distribution* d, const Pair* pair)                         of two children; the least wins
+//   axes     void NAME(const Distribution* d, Box node, uint level, float quality[3])    of planes across an axis: [0, 1]
+//   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)   whether a node is a leaf
+//
+// BLOCK  primitives that a leaf tests at once
+#ifndef BOXWOOD_HIERARCHY_STRATEGIES_H
+#define BOXWOOD_HIERARCHY_STRATEGIES_H
+#include "hierarchy/distribution.h"
+#include "shared/topdown.h"
+
+/// Two children that a node may get.
+typedef struct Pair {
+    Box node, left, right;
+    uint left_count, right_count;
+    float node_chance, left_chance, right_chance;
+} Pair;
+
+/// A node before it is split.
+typedef struct NodeState {
+    Box node;
+    uint count;
+    uint level;        ///< The root's is 0.
+    float chance;      ///< By the measure.
+    float root_chance; ///< That of the whole tree.
+} NodeState;
+
+#ifndef BOXWOOD_MEASURES // until distribution.h has them
+inline float surface_of(float3 e) { return e.x * e.y + e.y * e.z + e.z * e.x; }
+inline float surface_measure(const Distribution* d, Box box) {
+    const float3 extent = extent_of(d->root);
+    const float unit = max(max(extent.x, extent.y), extent.z);
+    const float whole = surface_of(extent / unit);
+    return whole > 0.0f ? surface_of(extent_of(box) / unit) / whole : 1.0f;
+}
+inline float projected_measure(const Distribution* d, Box box) { return surface_measure(d, box); }
+inline float expected_measure(const Distribution* d, Box box) { return surface_measure(d, box); }
+#endif
+
+/// What testing the primitives costs, once for each block of them.
+inline float block_cost(uint count) { return (float)((count + (BLOCK - 1)) / BLOCK); }
+
+inline float measured_cost(const Distribution* d, const Pair* pair) {
+    (void)d;
+    return pair->left_chance * block_cost(pair->left_count) + pair->right_chance * block_cost(pair->right_count);
+}
+
+/// Planes across the longer extents are the better ones; a point has no better axis.
+inline void longest_axes(const Distribution* d, Box node, uint level, float quality[3]) {
+    (void)d;
+    (void)level;
+    const float3 extent = extent_of(node);
+    const float longest = max(max(extent.x, extent.y), extent.z);
+    quality[0] = longest > 0.0f ? extent.x / longest : 1.0f;
+    quality[1] = longest > 0.0f ? extent.y / longest : 1.0f;
+    quality[2] = longest > 0.0f ? extent.z / longest : 1.0f;
+}
+
+/// Planes that the rays see edge-on, whose two sides overlap least in what rays see: the splitting plane facing heuristic. The
+/// ray of a point area is the one through the middle of the node. Without areas all axes are as good.
+inline void facing_axes(const Distribution* d, Box node, uint level, float quality[3]) {
+    (void)level;
+    float facing[3] = {0.0f, 0.0f, 0.0f}, shares = 0.0f;
+    for (uint i = 0; i < d->area_count; ++i) {
+        global const InfluenceRecord* area = d->areas + i;
+        float v[3] = {fabs(area->forward[0]), fabs(area->forward[1]), fabs(area->forward[2])};
+        if (area->point) {
+            v[0] = fabs(0.5f * node.a.x + 0.5f * node.a.w - area->origin[0]);
+            v[1] = fabs(0.5f * node.a.y + 0.5f * node.b.x - area->origin[1]);
+            v[2] = fabs(0.5f * node.a.z + 0.5f * node.b.y - area->origin[2]);
+        }
+        const float largest = max(max(v[0], v[1]), v[2]);
+        if (!(largest > 0.0f)) continue; // the eye is the middle
+        const float sum = v[0] / largest + v[1] / largest + v[2] / largest;
+        for (int k = 0; k < 3; ++k) facing[k] += area->share * (v[k] / largest / sum);
+        shares += area->share;
+    }
+    for (int k = 0; k < 3; ++k) quality[k] = shares > 0.0f ? 1.0f - facing[k] / shares : 1.0f;
+}
+
+inline void round_robin_axes(const Distribution* d, Box node, uint level, float quality[3]) {
+    (void)d;
+    (void)node;
+    for (uint k = 0; k < 3; ++k) quality[k] = k == level % 3 ? 1.0f : 0.0f;
+}
+
+inline void all_axes(const Distribution* d, Box node, uint level, float quality[3]) {
+    (void)d;
+    (void)node;
+    (void)level;
+    for (int k = 0; k < 3; ++k) quality[k] = 1.0f;
+}
+
+/// The paper's 8.1.7.
+inline bool threshold_stop(const Distribution* d, const Thresholds* t, const NodeState* s) {
+    (void)d;
+    return s->count <= t->max_leaf_primitives || s->chance * block_cost(s->count) < t->max_leaf_cost ||
+           s->chance < t->max_leaf_area * s->root_chance || s->chance < t->max_leaf_hit_probability;
+}
+
+inline bool never(const Distribution* d, const Thresholds* t, const NodeState* s) {
+    (void)d;
+    (void)t;
+    (void)s;
+    return false;
+}
+
+#endif

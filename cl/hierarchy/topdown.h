@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of the top-down builder share: where nodes are written, and the rays of a tree.
+//
+// OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
+#ifndef BOXWOOD_HIERARCHY_TOPDOWN_H
+#define BOXWOOD_HIERARCHY_TOPDOWN_H
+#include "hierarchy/split.h"
+
+#if !defined(OWN_CENTRES)
+#error "define OWN_CENTRES"
+#endif
+
+/// As in Topology (include/boxwood/topology.hpp).
+typedef struct Nodes {
+    global uint* order;
+    global uint2* children;
+    global uint* parents;
+    global uint* far_ends;
+    global uint* marks; ///< MARK_..., by inner node
+    uint count;         ///< Primitives of the forest.
+} Nodes;
+
+/// The index of the inner node over the positions from `first`.
+INLINE uint node_index(uint first, uint count, uint flags) { return flags & NODE_LEFT ? first + count - 1 : first; }
+
+/// Writes an inner node and its children's parent.
+INLINE void write_node(const Nodes* n, uint first, uint count, uint flags, uint left_count, uint mark) {
+    const uint index = node_index(first, count, flags), middle = first + left_count;
+    const uint left = left_count == 1 ? n->count + first : middle - 1;
+    const uint right = left_count + 1 == count ? n->count + middle : middle;
+    n->children[index] = (uint2)(left, right);
+    n->far_ends[index] = flags & NODE_LEFT ? first : first + count - 1;
+    n->parents[left] = index;
+    n->parents[right] = index;
+    n->marks[index] = mark;
+}
+
+INLINE float4 centre_of(float8 record, global const float* centres) {
+#if OWN_CENTRES
+    return (float4)(vload3(index_of(record), centres), 0.0f);
+#else
+    return middle_of(record);
+#endif
+}
+
+/// The rays of tree `tree`.
+INLINE void rays_of(Distribution* d, global const Aabb* tree_bounds, global const InfluenceRecord* areas,
+                    global const uint* area_starts, uint tree) {
+    const uint first = area_starts ? area_starts[tree] : 0;
+    d->areas = areas + first;
+    d->area_count = area_starts ? area_starts[tree + 1] - first : 0;
+    d->isotropic = 1.0f;
+    for (uint i = 0; i < d->area_count; ++i) d->isotropic -= d->areas[i].share;
+    d->isotropic = max(d->isotropic, 0.0f);
+    d->root = load_box(tree_bounds + tree);
+}
+
+#endif

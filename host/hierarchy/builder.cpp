@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The builders by name, and how those from the top down split nodes.
+#include "boxwood/error.hpp"
+#include "hierarchy/forest.hpp"
+#include "runtime/words.hpp"
+
+namespace boxwood {
+
+namespace {
+
+constexpr Words<Builder, 4> builders{
+    {{"lbvh", Builder::lbvh}, {"sah", Builder::sah}, {"midpoint", Builder::midpoint}, {"pah", Builder::pah}}};
+
+} // namespace
+
+std::string_view name(Builder builder) { return word_of(builders, builder); }
+Builder to_builder(std::string_view word) { return value_of(builders, "builder", word); }
+
+TopDownOptions topdown_options(Builder builder, std::uint32_t block) {
+    TopDownOptions options;
+    options.block = block;
+    options.stop = "never";
+    switch (builder) {
+    case Builder::sah:
+        options.axes = "all_axes";
+        break;
+    case Builder::midpoint:
+        options.bins = 2;
+        options.split_plane_quality = 1.0f; // the longest axis only
+        break;
+    default:
+        throw InputError("builder", std::string(name(builder)), "needs influence areas");
+    }
+    return options;
+}
+
+} // namespace boxwood

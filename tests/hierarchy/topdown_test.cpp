@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "boxwood/error.hpp"
+#include "boxwood/topdown.hpp"
+#include "hierarchy/forest_scene.hpp"
+#include "oracles/reference_topdown.hpp"
+#include "support.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("hierarchy");
+
+namespace {
+
+struct Result {
+    HostTopology topology;
+    std::vector<std::uint32_t> leaves;
+    std::uint64_t splits, axes_tried, fallbacks;
+};
+
+struct Forest {
+    std::vector<Aabb> boxes;
+    std::vector<std::uint32_t> offsets{0};
+    std::vector<float> centres; ///< Empty: the middles of the boxes.
+};
+
+Result run(const Forest& forest, const TopDownOptions& options, const std::vector<InfluenceRecord>& areas = {},
+           const std::vector<std::uint32_t>& area_starts = {}) {
+    Device& device = test_device();
+    const Buffer<Aabb> boxes = upload(device, forest.boxes, "boxes");
+    const Buffer<float> centres = upload(device, forest.centres, "centres");
+    const Buffer<InfluenceRecord> records = upload(device, areas, "areas");
+    const Buffer<std::uint32_t> starts = upload(device, area_starts, "area starts");
+    const TopDownTree tree =
+        topdown(device, boxes, centres, upload(device, forest.offsets, "offsets"), records, starts, options);
+    return {to_host(device, tree.topology), download(device, tree.leaves), tree.splits, tree.axes_tried,
+            tree.fallbacks};
+}
+
+/// Boxes of triangles spread in a cube, or in a plane, or on few places.
+enum class Spread { cube, plane, line, places, sizes };
+
+Forest random_forest(const std::vector<std::uint32_t>& sizes, Spread spread, std::uint64_t salt) {
+    Random random(salt);
+    Forest forest;
+    for (const std::uint32_t size : sizes) {
+        for (std::uint32_t i = 0; i < size; ++i) {
+            Aabb box;
+            const float half = spread == Spread::sizes ? std::exp2(random.uniform(-12.0f, 2.0f)) : 0.02f;
+            for (int k = 0; k < 3; ++k) {
+                float place = random.uniform(-1.0f, 1.0f), extent = random.uniform(0.0f, half);
+                if (spread == Spread::places) place = std::floor(2.0f * place), extent = 0.25f;
+                const bool flat = (spread == Spread::plane && k == 1) || (spread == Spread::line && k != 2);
+                if (flat) place = 0.5f, extent = 0.0f;
+                box.min[k] = place - extent;
+                box.max[k] = place + extent;
+            }
+            forest.boxes.push_back(box);
+        }
+        forest.offsets.push_back(static_cast<std::uint32_t>(forest.boxes.size()));
+    }
+    return forest;
+}
+
+Forest scaled(Forest forest, float factor) {
+    for (Aabb& box : forest.boxes)
+        for (int k = 0; k < 3; ++k) box.min[k] *= factor, box.max[k] *= factor;
+    return forest;
+}
+
+/// The same trees as recursion gives, node by node, and the same counts.
+void check(const Forest& forest, const TopDownOptions& options, const ReferenceRules& rules) {
+    const Result result = run(forest, options);
+    const ReferenceTree wanted = reference_topdown(forest.boxes, forest.centres, forest.offsets, options, rules);
+    CHECK(difference(result.topology, wanted.topology) == "");
+    CHECK(result.leaves == wanted.leaves);
+    CHECK(result.splits == wanted.splits);
+    CHECK(result.axes_tried == wanted.axes_tried);
+    CHECK(result.fallbacks == wanted.fallbacks);
+}
+
+TopDownOptions quality_options(std::uint32_t block) {
+    TopDownOptions options;
+    options.axes = "all_axes";
+    options.stop = "never";
+    options.block = block;
+    return options;
+}
+
+ReferenceRules quality_rules() {
+    ReferenceRules rules = reference_rules();
+    rules.axes = reference_all;
+    rules.thresholds = false;
+    return rules;
+}
+
+std::uint32_t many() { return small_sizes() ? 150 : 3000; }
+
+} // namespace
+
+TEST_CASE("topdown: the surface area heuristic splits as recursion does, large and small nodes alike") {
+    for (const Tuning& tuning : tunings()) {
+        CAPTURE(tuning.work_items);
+        const TuningScope scope(tuning);
+        for (const Spread spread : {Spread::cube, Spread::plane, Spread::line, Spread::places, Spread::sizes}) {
+            CAPTURE(static_cast<int>(spread));
+            // Around the 64 primitives above which the shortest slices make nodes large, and many levels above them.
+            for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 129u, many()}) {
+                CAPTURE(count);
+                check(random_forest({count}, spread, count), quality_options(1), quality_rules());
+            }
+            check(random_forest({many() / 3}, spread, 5), quality_options(4), quality_rules());
+        }
+    }
+}
+
+TEST_CASE("topdown: forests, with trees that are large, small, and of one primitive") {
+    for (const Tuning& tuning : tunings()) {
+        CAPTURE(tuning.work_items);
+        const TuningScope scope(tuning);
+        const Forest forest = random_forest({1, many() / 4, 1, 2, 64, 65, 3, many() / 6, 1}, Spread::sizes, 9);
+        check(forest, quality_options(1), quality_rules());
+        check(forest, quality_options(4), quality_rules());
+    }
+    check(random_forest({1, 1, 1}, Spread::cube, 9), quality_options(1), quality_rules());
+    check({}, quality_options(1), quality_rules());
+}
+
+TEST_CASE("topdown: primitives by centres of their own") {
+    Forest forest = random_forest({many() / 2, 70, 2}, Spread::cube, 11);
+    Random random(12);
+    for (std::size_t i = 0; i < 3 * forest.boxes.size(); ++i) forest.centres.push_back(random.uniform(-2.0f, 2.0f));
+    TopDownOptions options = quality_options(1);
+    check(forest, options, quality_rules());
+    options.bin_box = true; // centres lie outside: the slices at the ends take them
+    check(forest, options, quality_rules());
+}
+
+TEST_CASE("topdown: axes, thresholds and the fallback as in figure 9") {
+    const Forest forest = random_forest({many() / 4, 66}, Spread::sizes, 13);
+    for (const float quality : {0.0f, 0.4f, 0.7f, 1.0f}) {
+        for (const float acceptable : {0.0f, 1.1f, 1.3f}) {
+            for (const float excellent : {0.0f, 0.9f, 1.2f}) {
+                CAPTURE(quality);
+                CAPTURE(acceptable);
+                CAPTURE(excellent);
+                TopDownOptions options;
+                options.bins = 16;
+                options.bin_box = true;
+                options.split_plane_quality = quality;
+                options.acceptable_children = acceptable;
+                options.excellent_children = excellent;
+                options.max_leaf_primitives = 2;
+                options.max_non_fallback_levels = acceptable > 1.0f ? 100 : 4;
+                check(forest, options, reference_rules());
+            }
+        }
+    }
+}
+
+TEST_CASE("topdown: leaves by every threshold, at every size of node") {
+    for (const Tuning& tuning : tunings()) {
+        const TuningScope scope(tuning);
+        const Forest forest = random_forest({many() / 4, 2}, Spread::cube, 17);
+        const auto with = [&](auto set) {
+            TopDownOptions options;
+            set(options);
+            check(forest, options, reference_rules());
+        };
+        with([](TopDownOptions& o) { o.max_leaf_primitives = 100; });
+        with([](TopDownOptions& o) { o.max_leaf_primitives = 1u << 30; });
+        with([](TopDownOptions& o) { o.max_leaf_cost = 0.3f; });
+        with([](TopDownOptions& o) { o.max_leaf_area = 0.05f; });
+        with([](TopDownOptions& o) { o.max_leaf_hit_probability = 0.2f; });
+        with([](TopDownOptions& o) { o.max_leaf_hit_probability = 2.0f; });
+        with([](TopDownOptions& o) { o.max_levels = 1; });
+        with([](TopDownOptions& o) { o.max_levels = 5; });
+    }
+}
+
+TEST_CASE("topdown: halves in the middle of the longest axis") {
+    TopDownOptions options = topdown_options(Builder::midpoint, 1);
+    ReferenceRules rules = reference_rules();
+    rules.thresholds = false;
+    check(random_forest({many() / 2}, Spread::sizes, 19), options, rules);
+    check(random_forest({many() / 2}, Spread::places, 19), options, rules);
+}
+
+TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted without an absolute size") {
+    for (const float place : {0.0f, 1.0f, -1e18f, 1e-38f}) {
+        CAPTURE(place);
+        const Forest forest{std::vector<Aabb>(100, {{place, place, place}, {place, place, place}}), {0, 100}, {}};
+        check(forest, quality_options(1), quality_rules());
+        check(forest, quality_options(4), quality_rules());
+    }
+    Forest mixed = random_forest({many() / 4}, Spread::cube, 23);
+    mixed.boxes[5] = {{-1e17f, -1e17f, -1e17f}, {1e17f, 1e17f, 1e17f}};
+    mixed.boxes[6] = {{1e17f, 1e17f, 1e17f}, {1e17f, 1e17f, 1e17f}};
+    check(mixed, quality_options(1), quality_rules());
+}
+
+TEST_CASE("topdown: scaling by powers of two changes nothing") {
+    const Forest forest = random_forest({many() / 2, 65}, Spread::sizes, 29);
+    TopDownOptions paper;
+    paper.bin_box = true;
+    for (const TopDownOptions& options : {quality_options(1), quality_options(4), paper}) {
+        const Result wanted = run(forest, options);
+        for (const float factor : {0x1p-60f, 0x1p-7f, 0x1p60f}) {
+            CAPTURE(factor);
+            const Result result = run(scaled(forest, factor), options);
+            CHECK(difference(result.topology, wanted.topology) == "");
+            CHECK(result.leaves == wanted.leaves);
+        }
+    }
+}
+
+TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
+    // Every box twice as far and as large as the one before: planes part off a few each time.
+    Forest forest;
+    for (int i = 0; i < 120; ++i) {
+        const float at = std::exp2(static_cast<float>(i) - 60.0f);
+        forest.boxes.push_back({{at, at, at}, {1.5f * at, 1.5f * at, 1.5f * at}});
+    }
+    forest.offsets.push_back(120);
+    TopDownOptions options = quality_options(1);
+    check(forest, options, quality_rules());
+    CHECK(reference_topdown(forest.boxes, {}, forest.offsets, options, quality_rules()).depth > 20);
+    options.max_levels = 7;
+    check(forest, options, quality_rules());
+    CHECK(reference_topdown(forest.boxes, {}, forest.offsets, options, quality_rules()).depth <= 7 + 7);
+}
+
+TEST_CASE("topdown: strategies in OpenCL of one's own") {
+    TopDownOptions options = quality_options(1);
+    options.source = "inline float width(const Distribution* d, Box box) {\n"
+                     "    return extent_of(box).x / extent_of(d->root).x;\n"
+                     "}\n"
+                     "inline float squares(const Distribution* d, const Pair* pair) {\n"
+                     "    return pair->left_chance * block_cost(pair->left_count) + 2.0f * pair->right_chance * "
+                     "block_cost(pair->right_count);\n"
+                     "}\n"
+                     "inline void last_axis(const Distribution* d, Box node, uint level, float quality[3]) {\n"
+                     "    quality[0] = 0.0f; quality[1] = 0.5f; quality[2] = 1.0f;\n"
+                     "}\n"
+                     "inline bool at_seven(const Distribution* d, const Thresholds* t, const NodeState* s) {\n"
+                     "    return s->count <= 7;\n"
+                     "}\n";
+    options.measure = "width";
+    options.axes = "last_axis";
+    options.stop = "at_seven";
+    ReferenceRules rules = quality_rules();
+    rules.measure = [](const Aabb& root, const Aabb& box) {
+        return (box.max[0] - box.min[0]) / (root.max[0] - root.min[0]);
+    };
+    rules.axes = [](const Aabb&, std::uint32_t) { return std::array<float, 3>{0.0f, 0.5f, 1.0f}; };
+    rules.thresholds = true;
+    const Forest forest = random_forest({many() / 4}, Spread::sizes, 31);
+    const Result result = run(forest, options);
+    TopDownOptions same = options;
+    same.max_leaf_primitives = 7;
+    const ReferenceTree wanted = reference_topdown(forest.boxes, {}, forest.offsets, same, rules);
+    CHECK(difference(result.topology, wanted.topology) == "");
+    CHECK(result.leaves == wanted.leaves);
+    options.cost = "squares"; // another program of the same names
+    CHECK(difference(run(forest, options).topology, wanted.topology) != "");
+
+    options.source += "this is no OpenCL";
+    CHECK_THROWS_AS(run(forest, options), ProgramError);
+    options.source = "";
+    CHECK_THROWS_AS(run(forest, options), ProgramError); // names without functions
+}
+
+TEST_CASE("topdown: options out of range are refused by name") {
+    const Forest forest = random_forest({3}, Spread::cube, 1);
+    const auto refuse = [&](auto set) {
+        TopDownOptions options;
+        set(options);
+        CHECK_THROWS_AS(run(forest, options), InputError);
+    };
+    refuse([](TopDownOptions& o) { o.bins = 1; });
+    refuse([](TopDownOptions& o) { o.bins = 65; });
+    refuse([](TopDownOptions& o) { o.block = 2; });
+    refuse([](TopDownOptions& o) { o.max_levels = 0; });
+    refuse([](TopDownOptions& o) { o.max_levels = 1001; });
+    refuse([](TopDownOptions& o) { o.split_plane_quality = std::numeric_limits<float>::quiet_NaN(); });
+    refuse([](TopDownOptions& o) { o.max_leaf_cost = -1.0f; });
+    refuse([](TopDownOptions& o) { o.measure = "a b"; });
+    refuse([](TopDownOptions& o) { o.axes = ""; });
+    CHECK_THROWS_AS(topdown_options(Builder::pah, 1), InputError);
+}
+
+TEST_SUITE_END();
