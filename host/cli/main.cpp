@@ -69,8 +69,8 @@ int run(int argc, char** argv) {
     tool.footer("boxwood COMMAND --help explains a command.\n"
                 "Exit codes: 0 done, 1 failed, 2 usage, 3 bad input, 4 no usable device,\n"
                 "130 interrupted (render: the picture so far and a checkpoint are written).");
-    const Command commands[] = {add_devices(tool), add_scene(tool),   add_build(tool), add_info(tool),
-                                add_quality(tool), add_analyze(tool), add_trace(tool), add_render(tool)};
+    const Command commands[] = {add_devices(tool), add_scene(tool), add_build(tool), add_info(tool),  add_quality(tool),
+                                add_analyze(tool), add_study(tool), add_trace(tool), add_render(tool)};
     try {
         tool.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

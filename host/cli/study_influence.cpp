@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "cli/study_influence.hpp"
+
+#include "boxwood/geometry.hpp"
+#include "boxwood/volumes.hpp"
+#include "runtime/launch.hpp"
+#include "traverse/ray_cost.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+/// Table 1 of the paper.
+TopDownOptions paper_options(const char* measure, const char* axes) {
+    TopDownOptions options;
+    options.measure = measure;
+    options.axes = axes;
+    options.bins = 40;
+    options.bin_box = true;
+    options.max_leaf_primitives = 2;
+    options.max_levels = 100;
+    options.max_non_fallback_levels = 100;
+    options.split_plane_quality = 0.4f;
+    options.acceptable_children = 1.3f;
+    options.excellent_children = 0.9f;
+    return options;
+}
+
+/// All axes at every node.
+TopDownOptions all_axes_options(const char* measure) {
+    TopDownOptions options = paper_options(measure, "all_axes");
+    options.excellent_children = 0.0f;
+    return options;
+}
+
+/// Triangles on the device, with what builders split them by.
+struct Primitives {
+    Geometry geometry;
+    Buffer<Aabb> boxes;
+    Buffer<float> centres;
+
+    std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
+};
+
+/// Centres are barycentres, as in the paper.
+Buffer<float> barycentres(Device& device, const Mesh& mesh) {
+    std::vector<float> centres;
+    centres.reserve(3 * mesh.triangles.size());
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        glm::dvec3 sum(0.0);
+        for (int corner = 0; corner < 3; ++corner) sum += glm::dvec3(mesh.positions[triangle[corner]]);
+        for (int k = 0; k < 3; ++k) centres.push_back(static_cast<float>(sum[k] / 3.0));
+    }
+    return upload(device, centres, "centres of triangles");
+}
+
+Primitives upload_primitives(Device& device, const Mesh& mesh) {
+    Scene scene;
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({"", 0, glm::mat4(1.0f)});
+    Primitives primitives{upload(device, scene), {}, barycentres(device, mesh)};
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+    primitives.boxes = make_buffer<Aabb>(device, count, "boxes of triangles");
+    const Slices slices = cut(device, count);
+    launch(device, {"bounds/primitive_bounds.cl", "triangle_bounds"}, "triangle boxes", slices.slices,
+           primitives.geometry.positions, primitives.geometry.triangles, primitives.boxes, count, slices.length);
+    return primitives;
+}
+
+Buffer<Triangle> sorted_triangles(Device& device, const Topology& topology, const Primitives& primitives) {
+    Buffer<Triangle> triangles = make_scratch<Triangle>(device, primitives.count(), "triangles");
+    const Slices slices = cut(device, primitives.count());
+    launch(device, {"hierarchy/triangle_records.cl", "triangle_records"}, "triangles", slices.slices, topology.order,
+           topology.offsets, primitives.geometry.positions, primitives.geometry.triangles, triangles, 1u,
+           primitives.count(), slices.length);
+    return triangles;
+}
+
+/// Means over the rays.
+void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays, TreeResult& result) {
+    const Buffer<RayVisits> visits = make_scratch<RayVisits>(device, rays.size(), "visits");
+    const Buffer<Hit> hits = make_scratch<Hit>(device, rays.size(), "hits");
+    ray_visits(device, tree, rays, visits, hits);
+    std::uint64_t nodes = 0, primitives = 0, nodes_to_hit = 0, primitives_to_hit = 0, hit = 0;
+    for (const RayVisits& each : download(device, visits)) {
+        nodes += each.nodes;
+        primitives += each.primitives;
+        nodes_to_hit += each.nodes_to_hit;
+        primitives_to_hit += each.primitives_to_hit;
+    }
+    for (const Hit& each : download(device, hits)) hit += each.primitive != BOXWOOD_NONE ? 1 : 0;
+    const auto count = static_cast<double>(rays.size());
+    const auto cost = [&](std::uint64_t inner, std::uint64_t below) {
+        return (2.0 * box_price * static_cast<double>(inner) + primitive_price * static_cast<double>(below)) / count;
+    };
+    result.cost = cost(nodes, primitives);
+    result.cost_to_hit = cost(nodes_to_hit, primitives_to_hit);
+    result.hits = static_cast<double>(hit) / count;
+}
+
+TreeResult study_tree(Device& device, const Primitives& primitives, const InfluenceRecord& area,
+                      const TopDownOptions& options, const Buffer<Ray>& rays) {
+    const Buffer<InfluenceRecord> areas = upload(device, std::vector{area}, "areas");
+    const Buffer<std::uint32_t> starts = upload(device, std::vector<std::uint32_t>{0, 1}, "areas of trees");
+    const TopDownTree tree =
+        topdown(device, primitives.boxes, primitives.centres,
+                upload(device, std::vector<std::uint32_t>{0, primitives.count()}, "trees"), areas, starts, options);
+    const Buffer<Aabb> volumes = aabb_volumes(device, tree.topology, primitives.boxes);
+    TreeResult result;
+    follow_rays(device, {tree.topology, volumes, tree.leaves, sorted_triangles(device, tree.topology, primitives)},
+                rays, result);
+    const AnalysisTree nodes = analysis_tree(device, tree.topology, volumes, tree.leaves);
+    result.analysis = analysis_of(nodes, measure_nodes(nodes, std::span(&area, 1)));
+    result.splits = tree.splits;
+    result.axes_tried = tree.axes_tried;
+    result.fallbacks = tree.fallbacks;
+    return result;
+}
+
+} // namespace
+
+std::vector<StudyBuilder> study_builders() {
+    return {{study_base, paper_options("surface_measure", "longest_axes")},
+            {"PAH+SPFH", paper_options("projected_measure", "facing_axes")},
+            {"PAH+LSPH", paper_options("projected_measure", "longest_axes")},
+            {"SAH+SPFH", paper_options("surface_measure", "facing_axes")},
+            {"sah-axes", all_axes_options("surface_measure")},
+            {"blend", all_axes_options("expected_measure")}};
+}
+
+std::vector<StudyBuilder> parameter_cases() {
+    const float thresholds[][3] = {
+        {0.4f, 1.3f, 0.9f}, {0.1f, 1.3f, 0.9f}, {0.8f, 1.3f, 0.9f}, {0.4f, 1.1f, 0.7f}, {0.4f, 1.5f, 1.1f}};
+    std::vector<StudyBuilder> cases;
+    for (const auto& [quality, acceptable, excellent] : thresholds) {
+        TopDownOptions options = paper_options("projected_measure", "facing_axes");
+        options.split_plane_quality = quality;
+        options.acceptable_children = acceptable;
+        options.excellent_children = excellent;
+        cases.push_back({"case " + std::to_string(cases.size()), options});
+    }
+    return cases;
+}
+
+ConfigurationResult study_configuration(Device& device, const Configuration& configuration, const Mesh& scene,
+                                        std::span<const StudyBuilder> builders, const std::vector<Ray>& rays) {
+    ConfigurationResult result;
+    result.configuration = configuration;
+    const Mesh local = local_mesh(scene, configuration.record);
+    result.triangles = local.triangles.size();
+    if (local.triangles.empty()) return result;
+    const Primitives primitives = upload_primitives(device, local);
+    const Buffer<Ray> device_rays = upload(device, rays, "rays");
+    for (const StudyBuilder& builder : builders)
+        result.trees[builder.name] = study_tree(device, primitives, configuration.record, builder.options, device_rays);
+    return result;
+}
+
+} // namespace boxwood::cli

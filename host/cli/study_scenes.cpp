@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "cli/study_scenes.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "boxwood/error.hpp"
+#include "boxwood/gltf.hpp"
+
+namespace boxwood::cli {
+
+namespace {
+
+/// Splitmix64: the same numbers on every machine.
+class Uniform {
+public:
+    explicit Uniform(std::uint64_t seed) : state_(seed) {}
+    /// In [low, high).
+    double operator()(double low, double high) {
+        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    }
+    glm::dvec3 vector(double low, double high) {
+        const double x = (*this)(low, high), y = (*this)(low, high), z = (*this)(low, high);
+        return {x, y, z};
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+/// The first vertices anywhere in [0, 10]^3, the second within 1 of the first along each axis, the third of the second.
+Mesh random_triangles(std::uint32_t count, std::uint64_t seed) {
+    Uniform uniform(seed * 0x2545f4914f6cdd1du + count);
+    Mesh mesh{"random", {}, {}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        glm::dvec3 vertex = uniform.vector(0.0, 10.0);
+        for (int corner = 0; corner < 3; ++corner) {
+            mesh.positions.emplace_back(vertex);
+            vertex += uniform.vector(-1.0, 1.0);
+        }
+        mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    return mesh;
+}
+
+/// The words of an entry that load_areas does not read.
+void read_words(const nlohmann::json& entry, Configuration& configuration) {
+    configuration.scene = entry.at("scene").get<std::string>();
+    configuration.orientation = entry.at("orientation").get<std::string>();
+}
+
+/// The part of a convex polygon where inside(point) >= 0, linear in the point.
+template <class Inside>
+std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const Inside& inside) {
+    std::vector<glm::dvec3> result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double at_a = inside(a), at_b = inside(b);
+        if (at_a >= 0.0) result.push_back(a);
+        if ((at_a >= 0.0) != (at_b >= 0.0)) result.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    return result;
+}
+
+/// Whether a triangle has a point in the region: what its six planes leave of it.
+bool reaches(const InfluenceRecord& area, std::vector<glm::dvec3> triangle) {
+    for (glm::dvec3& p : triangle) {
+        glm::dvec3 local(0.0);
+        for (int k = 0; k < 3; ++k)
+            local += (p[k] - area.origin[k]) * glm::dvec3(area.right[k], area.up[k], area.forward[k]);
+        p = local;
+    }
+    triangle = clip(triangle, [&](const glm::dvec3& p) { return p.z - area.near; });
+    triangle = clip(triangle, [&](const glm::dvec3& p) { return area.far - p.z; });
+    for (const double sign : {-1.0, 1.0}) {
+        const auto reach = [&](const glm::dvec3& p) { return area.point ? p.z : 1.0; };
+        triangle = clip(triangle, [&](const glm::dvec3& p) { return reach(p) * area.half_width + sign * p.x; });
+        triangle = clip(triangle, [&](const glm::dvec3& p) { return reach(p) * area.half_height + sign * p.y; });
+    }
+    return !triangle.empty();
+}
+
+} // namespace
+
+std::vector<Configuration> load_configurations(const std::filesystem::path& file) {
+    const std::vector<InfluenceArea> areas = load_areas(file);
+    std::ifstream stream(file);
+    const nlohmann::json entries = nlohmann::json::parse(stream, nullptr, false);
+    std::vector<Configuration> configurations(areas.size());
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        Configuration& configuration = configurations[i];
+        try {
+            read_words(entries.at(i), configuration);
+        } catch (const nlohmann::json::exception&) {
+            throw InputError(file.string(), "area " + std::to_string(i),
+                             "needs the words \"scene\" and \"orientation\" to be studied");
+        }
+        configuration.area = areas[i].kind == AreaKind::plane ? "plane" : "point";
+        configuration.record = influence_records(std::span(&areas[i], 1), file.string())[0];
+    }
+    return configurations;
+}
+
+std::optional<Mesh> load_study_scene(const std::string& name, const std::filesystem::path& folder, std::uint64_t seed) {
+    if (name == "Random100") return random_triangles(100, seed);
+    if (name == "Random1000") return random_triangles(1000, seed);
+    const std::string stem = name == "Suzanne" ? "MonkeyModel" : name == "Wood" ? "WoodScene" : name;
+    const std::filesystem::path file = folder / ("pah_" + stem + ".glb");
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    Scene scene = flatten(load_gltf(file));
+    return scene.meshes.empty() ? Mesh{} : std::move(scene.meshes[0]);
+}
+
+Mesh local_mesh(const Mesh& mesh, const InfluenceRecord& area) {
+    Mesh local{mesh.name, mesh.positions, {}};
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        const std::vector<glm::dvec3> corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
+                                              mesh.positions[triangle.z]};
+        if (reaches(area, corners)) local.triangles.push_back(triangle);
+    }
+    return local;
+}
+
+std::vector<Ray> area_rays(const InfluenceRecord& area, std::uint32_t count, std::uint64_t seed) {
+    Uniform uniform(seed);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        const double x = uniform(-1.0, 1.0) * area.half_width, y = uniform(-1.0, 1.0) * area.half_height;
+        for (int k = 0; k < 3; ++k) {
+            const double aside = x * area.right[k] + y * area.up[k];
+            const double direction = area.point ? area.forward[k] + aside : double{area.forward[k]};
+            const double start = area.point ? area.near * direction : aside;
+            ray.origin[k] = static_cast<float>(area.origin[k] + start);
+            ray.direction[k] = static_cast<float>(direction);
+        }
+        ray.t_min = 0.0f;
+        ray.t_max = std::numeric_limits<float>::infinity();
+    }
+    return rays;
+}
+
+} // namespace boxwood::cli
