@@ -6,7 +6,8 @@
 //   axes     void NAME(const Distribution* d, Box node, uint level, float quality[3])    of planes across an axis: [0, 1]
 //   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)   whether a node is a leaf
 //
-// BLOCK  primitives that a leaf tests at once
+// BLOCK    primitives that a leaf tests at once
+// MEASURE  the strategy's measure
 #ifndef BOXWOOD_HIERARCHY_STRATEGIES_H
 #define BOXWOOD_HIERARCHY_STRATEGIES_H
 #include "hierarchy/distribution.h"
@@ -28,24 +29,23 @@ typedef struct NodeState {
     float root_chance; ///< That of the whole tree.
 } NodeState;
 
-#ifndef BOXWOOD_MEASURES // until distribution.h has them
-inline float surface_of(float3 e) { return e.x * e.y + e.y * e.z + e.z * e.x; }
-inline float surface_measure(const Distribution* d, Box box) {
-    const float3 extent = extent_of(d->root);
-    const float unit = max(max(extent.x, extent.y), extent.z);
-    const float whole = surface_of(extent / unit);
-    return whole > 0.0f ? surface_of(extent_of(box) / unit) / whole : 1.0f;
-}
-inline float projected_measure(const Distribution* d, Box box) { return surface_measure(d, box); }
-inline float expected_measure(const Distribution* d, Box box) { return surface_measure(d, box); }
-#endif
-
 /// What testing the primitives costs, once for each block of them.
 inline float block_cost(uint count) { return (float)((count + (BLOCK - 1)) / BLOCK); }
 
 inline float measured_cost(const Distribution* d, const Pair* pair) {
     (void)d;
     return pair->left_chance * block_cost(pair->left_count) + pair->right_chance * block_cost(pair->right_count);
+}
+
+/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both children
+/// share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
+inline float overlap_cost(const Distribution* d, const Pair* pair) {
+    const float cost = measured_cost(d, pair);
+    const Box shared = {(float4)(GREATER(pair->left.a.xyz, pair->right.a.xyz), fmin(pair->left.a.w, pair->right.a.w)),
+                        LESSER(pair->left.b, pair->right.b)};
+    const float3 extent = extent_of(shared);
+    if (!(extent.x >= 0.0f && extent.y >= 0.0f && extent.z >= 0.0f)) return cost;
+    return cost + 0.25f * MEASURE(d, shared) * block_cost(min(pair->left_count, pair->right_count));
 }
 
 /// Planes across the longer extents are the better ones; a point has no better axis.
@@ -60,7 +60,9 @@ inline void longest_axes(const Distribution* d, Box node, uint level, float qual
 }
 
 /// Planes that the rays see edge-on, whose two sides overlap least in what rays see: the splitting plane facing heuristic. The
-/// ray of a point area is the one through the middle of the node. Without areas all axes are as good.
+/// ray of a point area is the one through the middle of the node. Without areas all axes are as good. The quality is the square of
+/// 1 less the share of the axis in the ray's direction: the paper gives the share only, and with the square its thresholds give
+/// the numbers of axes tried and of fallbacks of its table 2.
 inline void facing_axes(const Distribution* d, Box node, uint level, float quality[3]) {
     (void)level;
     float facing[3] = {0.0f, 0.0f, 0.0f}, shares = 0.0f;
@@ -78,7 +80,10 @@ inline void facing_axes(const Distribution* d, Box node, uint level, float quali
         for (int k = 0; k < 3; ++k) facing[k] += area->share * (v[k] / largest / sum);
         shares += area->share;
     }
-    for (int k = 0; k < 3; ++k) quality[k] = shares > 0.0f ? 1.0f - facing[k] / shares : 1.0f;
+    for (int k = 0; k < 3; ++k) {
+        const float across = shares > 0.0f ? 1.0f - facing[k] / shares : 1.0f;
+        quality[k] = across * across;
+    }
 }
 
 inline void round_robin_axes(const Distribution* d, Box node, uint level, float quality[3]) {
