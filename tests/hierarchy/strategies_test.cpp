@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// The strategies for influence areas: no plane that a node could have been split by is better, by chances in double precision.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "boxwood/analysis.hpp"
+#include "boxwood/influence.hpp"
+#include "boxwood/topdown.hpp"
+#include "hierarchy/forest_scene.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("hierarchy");
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+const Aabb empty{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+Aabb hull(Aabb a, const Aabb& b) {
+    for (int k = 0; k < 3; ++k) {
+        a.min[k] = std::min(a.min[k], b.min[k]);
+        a.max[k] = std::max(a.max[k], b.max[k]);
+    }
+    return a;
+}
+
+Aabb shared(Aabb a, const Aabb& b) {
+    for (int k = 0; k < 3; ++k) {
+        a.min[k] = std::max(a.min[k], b.min[k]);
+        a.max[k] = std::min(a.max[k], b.max[k]);
+        if (!(a.min[k] <= a.max[k])) return empty;
+    }
+    return a;
+}
+
+InfluenceArea oblique_plane() {
+    return {.kind = AreaKind::plane,
+            .origin = {6.0, 5.0, 7.0},
+            .direction = {-1.0, -0.4, -0.7},
+            .half_width = 5.0,
+            .half_height = 3.0,
+            .far = 30.0,
+            .share = 0.5};
+}
+
+InfluenceArea near_point() {
+    return {.kind = AreaKind::point,
+            .origin = {0.0, 1.0, 9.0},
+            .direction = {0.1, 0.0, -1.0},
+            .half_width = 0.4,
+            .half_height = 0.6,
+            .near = 0.5,
+            .far = 20.0,
+            .share = 0.25};
+}
+
+/// Chances in double precision, by the analyser, of many boxes at once.
+struct Chances {
+    std::vector<InfluenceRecord> areas;
+    AnalysisTree boxes; ///< The first is the root.
+    std::vector<double> projected, expected;
+
+    std::size_t add(const Aabb& box) {
+        boxes.nodes.push_back({box, 0, BOXWOOD_NONE, 0, 0, 1});
+        return boxes.nodes.size() - 1;
+    }
+    void measure() {
+        const std::vector<NodeMeasures> surface = measure_nodes(boxes, {});
+        projected.assign(boxes.nodes.size(), 0.0);
+        expected = projected;
+        double shares = 0.0;
+        for (const InfluenceRecord& area : areas) {
+            InfluenceRecord alone = area;
+            alone.share = 1.0f;
+            const std::vector<NodeMeasures> own = measure_nodes(boxes, std::vector{alone});
+            for (std::size_t i = 0; i < own.size(); ++i) projected[i] += double(area.share) * own[i].chance_culled;
+            shares += area.share;
+        }
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            expected[i] = projected[i] + (1.0 - shares) * surface[i].surface;
+            projected[i] /= shares;
+        }
+    }
+};
+
+/// A way to split one node: indices into Chances, and the counts.
+struct Candidate {
+    int axis;
+    std::size_t left, right, shared;
+    std::uint32_t left_count, right_count;
+};
+
+struct Case {
+    TopDownOptions options;
+    bool expected = false; ///< Chances by expected_measure, else by projected_measure.
+    bool overlap = false;
+    std::function<int(const Aabb&)> axis = {}; ///< The only axis to try, or none.
+};
+
+struct Node {
+    std::uint32_t first, last;
+    std::uint32_t middle; ///< First position of the right child.
+};
+
+/// Every plane between slices of the centres' box, as cl/hierarchy/split.h has them.
+std::vector<Candidate> candidates_of(const std::vector<Aabb>& below, const Case& which, Chances& chances) {
+    std::vector<Candidate> candidates;
+    Aabb box = empty;
+    for (const Aabb& each : below) box = hull(box, each);
+    const int slices = static_cast<int>(std::min<std::size_t>(which.options.bins, 4 + below.size() / 16));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (which.axis && which.axis(box) != axis) continue;
+        float low = infinity, high = -infinity;
+        const auto centre = [&](const Aabb& b) { return 0.5f * b.min[axis] + 0.5f * b.max[axis]; };
+        for (const Aabb& each : below) {
+            low = std::min(low, centre(each));
+            high = std::max(high, centre(each));
+        }
+        const float scale = static_cast<float>(slices) / (high - low);
+        for (int plane = 1; plane < slices; ++plane) {
+            Aabb left = empty, right = empty;
+            std::uint32_t left_count = 0;
+            for (const Aabb& each : below) {
+                const bool goes_left = std::min(static_cast<int>((centre(each) - low) * scale), slices - 1) < plane;
+                left_count += goes_left ? 1 : 0;
+                (goes_left ? left : right) = hull(goes_left ? left : right, each);
+            }
+            const auto right_count = static_cast<std::uint32_t>(below.size()) - left_count;
+            if (left_count == 0 || right_count == 0) continue;
+            const Aabb both = shared(left, right);
+            const std::size_t none = std::numeric_limits<std::size_t>::max();
+            candidates.push_back({axis, chances.add(left), chances.add(right),
+                                  both.min[0] <= both.max[0] ? chances.add(both) : none, left_count, right_count});
+        }
+    }
+    return candidates;
+}
+
+double cost_of(const Candidate& c, const Case& which, const Chances& chances) {
+    const std::vector<double>& chance = which.expected ? chances.expected : chances.projected;
+    double cost = chance[c.left] * c.left_count + chance[c.right] * c.right_count;
+    if (which.overlap && c.shared < chance.size())
+        cost += 0.25 * chance[c.shared] * std::min(c.left_count, c.right_count);
+    return cost;
+}
+
+/// Nodes of a tree whose split is dearer than another by more than roundings, or is none of the planes.
+int poor_splits(const Case& which, std::uint64_t salt) {
+    Device& device = test_device();
+    const Mesh mesh = random_mesh(small_sizes() ? 40 : 300, 3.0f, 0.4f, salt);
+    std::vector<Aabb> boxes;
+    for (const glm::uvec3& triangle : mesh.triangles) boxes.push_back(box_of(mesh, triangle));
+    const auto count = static_cast<std::uint32_t>(boxes.size());
+    const std::vector<InfluenceRecord> areas = influence_records(std::vector{oblique_plane(), near_point()});
+    const TopDownTree tree =
+        topdown(device, upload(device, boxes, "boxes"), {}, upload(device, std::vector{0u, count}, "offsets"),
+                upload(device, areas, "areas"), upload(device, std::vector{0u, 2u}, "area starts"), which.options);
+    const HostTopology topology = to_host(device, tree.topology);
+
+    int poor = 0;
+    for (std::uint32_t node = 0; node + 1 < count; ++node) {
+        const Span span = span_of(topology, node);
+        std::vector<Aabb> below;
+        for (std::uint32_t i = span.first; i <= span.last; ++i) below.push_back(boxes[topology.order[i]]);
+        if (below.size() < 3) continue;
+        Chances chances{areas, {}, {}, {}};
+        Aabb root = empty;
+        for (const Aabb& box : boxes) root = hull(root, box);
+        chances.add(root);
+        const std::vector<Candidate> candidates = candidates_of(below, which, chances);
+        chances.measure();
+        const std::uint32_t left_count = span_of(topology, topology.children[node].s[0]).last + 1 - span.first;
+        double least = infinity, own = infinity;
+        for (const Candidate& candidate : candidates) {
+            const double cost = cost_of(candidate, which, chances);
+            least = std::min(least, cost);
+            // The plane that was taken, or another with as many on the left, which then must be as good.
+            if (candidate.left_count == left_count) own = std::min(own, cost);
+        }
+        if (!(own <= least * (1.0 + 1e-4))) ++poor; // chances are good to 1e-5, see projected_area.h
+    }
+    return poor;
+}
+
+TopDownOptions all_splits() {
+    TopDownOptions options;
+    options.axes = "all_axes";
+    options.stop = "never";
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("strategies: splits by projected and by expected chances, with and without overlap") {
+    for (const bool overlap : {false, true}) {
+        Case which{.options = all_splits(), .overlap = overlap};
+        which.options.cost = overlap ? "overlap_cost" : "measured_cost";
+        which.options.measure = "projected_measure";
+        CHECK(poor_splits(which, 1) == 0);
+        which.expected = true;
+        which.options.measure = "expected_measure";
+        CHECK(poor_splits(which, 2) == 0);
+    }
+}
+
+TEST_CASE("strategies: planes that the rays see edge-on come first") {
+    Case which{.options = all_splits()};
+    which.options.measure = "projected_measure";
+    which.options.axes = "facing_axes";
+    which.options.split_plane_quality = 0.0f;
+    which.options.excellent_children = infinity; // what the first axis gives is good
+    const InfluenceArea plane = oblique_plane(), point = near_point();
+    which.axis = [&](const Aabb& box) {
+        glm::dvec3 facing(0.0);
+        for (const InfluenceArea& area : {plane, point}) {
+            glm::dvec3 way = area.direction;
+            if (area.kind == AreaKind::point)
+                for (int k = 0; k < 3; ++k) way[k] = 0.5 * (double(box.min[k]) + box.max[k]) - area.origin[k];
+            const glm::dvec3 size = glm::abs(way);
+            facing += *area.share * size / (size.x + size.y + size.z);
+        }
+        int best = 0;
+        for (int k = 1; k < 3; ++k)
+            if (facing[k] < facing[best]) best = k;
+        return best;
+    };
+    CHECK(poor_splits(which, 3) == 0);
+}
+
+TEST_SUITE_END();
