@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// boxwood analyze.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+
+using namespace boxwood::test;
+using Json = nlohmann::json;
+
+TEST_SUITE_BEGIN("cli");
+
+namespace {
+
+/// Looks along -z at everything within 4 of the axis, and more than procedural scenes need behind.
+constexpr const char* one_area =
+    R"([{"kind": "plane", "point": [0, 0, 50], "direction": [0, 0, -1], "half_width": 4, "half_height": 4, "length": 100}])";
+
+Json analyze(const Tool& tool, const std::string& arguments) {
+    tool.succeed("analyze " + arguments + " --quiet --report a.json");
+    return Json::parse(tool.contents("a.json"));
+}
+
+} // namespace
+
+TEST_CASE("analyze: a scene and its .bxw file have the same figures, which add up over levels and nodes") {
+    const Tool tool;
+    tool.write("areas.json", one_area);
+    tool.succeed("scene random --triangles 300 -o random.glb");
+    for (const std::string options : {"--layout binary", "--layout wide8", "--bounds obb-points"}) {
+        CAPTURE(options);
+        tool.succeed("build random.glb -o random.bxw " + options);
+        const Json report = analyze(tool, "random.glb " + options + " --areas areas.json --nodes nodes.json");
+        const Json stored = analyze(tool, "random.bxw --areas areas.json");
+        CHECK(report["analysis"] == stored["analysis"]);
+        REQUIRE(report["analysis"]["trees"].size() == 1);
+        const Json& tree = report["analysis"]["trees"][0];
+        CHECK(tree["primitives"] == 300);
+        CHECK(tree["levels"].size() == tree["depth"].get<std::size_t>() + 1);
+        for (const std::string key : {"sah", "pah", "pah_culled"}) {
+            CAPTURE(key);
+            double sum = 0.0;
+            for (const Json& level : tree["levels"]) sum += level[key].get<double>();
+            CHECK(sum == doctest::Approx(tree[key].get<double>()));
+            CHECK(sum > 0.0);
+        }
+        CHECK(tree["pah_culled"] <= tree["pah"]);
+        for (const std::string level : {"4", "7", "10", "15", "all"}) {
+            CHECK(tree["overlap_to_level"][level]["culled"] > 0.0);
+            CHECK(tree["overlap_to_level"][level]["all"] < 1.0);
+        }
+        // Per node: the cost once more, from its nodes.
+        const Json nodes = Json::parse(tool.contents("nodes.json"))["trees"][0]["nodes"];
+        CHECK(nodes.size() == tree["nodes"]);
+        double sah = 0.0, pah = 0.0;
+        for (const Json& node : nodes) {
+            const double price =
+                node["children"] == 0 ? 1.2 * node["primitives"].get<double>() : node["children"].get<double>();
+            sah += price * node["surface"].get<double>();
+            pah += price * node["chance_culled"].get<double>();
+        }
+        CHECK(sah == doctest::Approx(tree["sah"].get<double>()));
+        CHECK(pah == doctest::Approx(tree["pah_culled"].get<double>()));
+        CHECK(nodes[0]["parent"].is_null());
+    }
+}
+
+TEST_CASE("analyze: two levels, tables, an empty scene, and wrong usage") {
+    const Tool tool;
+    tool.write("areas.json", one_area);
+    tool.succeed("scene forest --instances 20 -o forest.glb");
+    const Run run = tool.succeed("analyze forest.glb --levels two --areas areas.json --report a.json");
+    CHECK(run.out.find("top level") != std::string::npos);
+    CHECK(run.err.empty());
+    const Json trees = Json::parse(tool.contents("a.json"))["analysis"]["trees"];
+    CHECK(trees.size() > 1);
+    CHECK(trees[0]["primitives"] == 20);
+    CHECK(trees[0].contains("pah"));
+    CHECK_FALSE(trees[1].contains("pah")); // in object space, where the area is not
+    tool.write("empty.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
+    CHECK(analyze(tool, "empty.gltf --areas areas.json")["analysis"]["trees"].empty());
+    tool.succeed("analyze empty.gltf");
+    CHECK(tool.run("analyze missing.glb").code == 3);
+    CHECK(tool.run("analyze empty.gltf --areas missing.json").code == 3);
+    CHECK(tool.run("analyze empty.gltf --nodes nowhere/n.json").code == 3);
+    CHECK(tool.run("analyze").code == 2);
+}
+
+TEST_SUITE_END();
