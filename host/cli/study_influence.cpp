@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/study_influence.hpp"
 
+#include "boxwood/costed_leaves.hpp"
 #include "boxwood/geometry.hpp"
+#include "boxwood/reduce.hpp"
 #include "boxwood/volumes.hpp"
 #include "runtime/launch.hpp"
 #include "traverse/ray_cost.hpp"
@@ -10,14 +12,14 @@ namespace boxwood::cli {
 
 namespace {
 
-/// Table 1 of the paper.
+/// Table 1 of the paper. Its builder makes leaves of nodes with fewer than 2 triangles.
 TopDownOptions paper_options(const char* measure, const char* axes) {
     TopDownOptions options;
     options.measure = measure;
     options.axes = axes;
     options.bins = 40;
     options.bin_box = true;
-    options.max_leaf_primitives = 2;
+    options.max_leaf_primitives = 1;
     options.max_levels = 100;
     options.max_non_fallback_levels = 100;
     options.split_plane_quality = 0.4f;
@@ -26,24 +28,32 @@ TopDownOptions paper_options(const char* measure, const char* axes) {
     return options;
 }
 
-/// All axes at every node.
-TopDownOptions all_axes_options(const char* measure) {
-    TopDownOptions options = paper_options(measure, "all_axes");
-    options.excellent_children = 0.0f;
-    return options;
+StudyBuilder paper_builder(const char* name, const char* measure, const char* axes) {
+    return {name, paper_options(measure, axes), true, false};
+}
+
+/// All axes at every node, leaves of up to 2.
+StudyBuilder all_axes_builder(const char* name, const char* measure, const char* cost, bool costed_leaves) {
+    TopDownOptions options;
+    options.measure = measure;
+    options.cost = cost;
+    options.axes = "all_axes";
+    options.bins = 40;
+    options.max_leaf_primitives = 2;
+    return {name, options, false, costed_leaves};
 }
 
 /// Triangles on the device, with what builders split them by.
 struct Primitives {
     Geometry geometry;
     Buffer<Aabb> boxes;
-    Buffer<float> centres;
+    Buffer<Aabb> bounds; ///< One: of all.
+    Buffer<float> barycentres;
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
 };
 
-/// Centres are barycentres, as in the paper.
-Buffer<float> barycentres(Device& device, const Mesh& mesh) {
+Buffer<float> barycentres_of(Device& device, const Mesh& mesh) {
     std::vector<float> centres;
     centres.reserve(3 * mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
@@ -51,19 +61,21 @@ Buffer<float> barycentres(Device& device, const Mesh& mesh) {
         for (int corner = 0; corner < 3; ++corner) sum += glm::dvec3(mesh.positions[triangle[corner]]);
         for (int k = 0; k < 3; ++k) centres.push_back(static_cast<float>(sum[k] / 3.0));
     }
-    return upload(device, centres, "centres of triangles");
+    return upload(device, centres, "barycentres");
 }
 
 Primitives upload_primitives(Device& device, const Mesh& mesh) {
     Scene scene;
     scene.meshes.push_back(mesh);
     scene.instances.push_back({"", 0, glm::mat4(1.0f)});
-    Primitives primitives{upload(device, scene), {}, barycentres(device, mesh)};
+    Primitives primitives{upload(device, scene), {}, {}, barycentres_of(device, mesh)};
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     primitives.boxes = make_buffer<Aabb>(device, count, "boxes of triangles");
     const Slices slices = cut(device, count);
     launch(device, {"bounds/primitive_bounds.cl", "triangle_bounds"}, "triangle boxes", slices.slices,
            primitives.geometry.positions, primitives.geometry.triangles, primitives.boxes, count, slices.length);
+    primitives.bounds = make_buffer<Aabb>(device, 1, "bounds of triangles");
+    reduce<Aabb>(device, primitives.boxes, Operator::sum, primitives.bounds);
     return primitives;
 }
 
@@ -99,13 +111,17 @@ void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays
 }
 
 TreeResult study_tree(Device& device, const Primitives& primitives, const InfluenceRecord& area,
-                      const TopDownOptions& options, const Buffer<Ray>& rays) {
+                      const StudyBuilder& builder, const Buffer<Ray>& rays) {
     const Buffer<InfluenceRecord> areas = upload(device, std::vector{area}, "areas");
     const Buffer<std::uint32_t> starts = upload(device, std::vector<std::uint32_t>{0, 1}, "areas of trees");
-    const TopDownTree tree =
-        topdown(device, primitives.boxes, primitives.centres,
-                upload(device, std::vector<std::uint32_t>{0, primitives.count()}, "trees"), areas, starts, options);
+    const BufferView<const float> middles; // of the boxes
+    TopDownTree tree = topdown(device, primitives.boxes, builder.barycentres ? primitives.barycentres.view() : middles,
+                               upload(device, std::vector<std::uint32_t>{0, primitives.count()}, "trees"), areas,
+                               starts, builder.options);
     const Buffer<Aabb> volumes = aabb_volumes(device, tree.topology, primitives.boxes);
+    if (builder.costed_leaves)
+        tree.leaves = costed_leaves(device, tree.topology, volumes, primitives.bounds, areas, starts,
+                                    static_cast<float>(box_price), static_cast<float>(primitive_price));
     TreeResult result;
     follow_rays(device, {tree.topology, volumes, tree.leaves, sorted_triangles(device, tree.topology, primitives)},
                 rays, result);
@@ -120,12 +136,13 @@ TreeResult study_tree(Device& device, const Primitives& primitives, const Influe
 } // namespace
 
 std::vector<StudyBuilder> study_builders() {
-    return {{study_base, paper_options("surface_measure", "longest_axes")},
-            {"PAH+SPFH", paper_options("projected_measure", "facing_axes")},
-            {"PAH+LSPH", paper_options("projected_measure", "longest_axes")},
-            {"SAH+SPFH", paper_options("surface_measure", "facing_axes")},
-            {"sah-axes", all_axes_options("surface_measure")},
-            {"blend", all_axes_options("expected_measure")}};
+    return {paper_builder(study_base, "surface_measure", "longest_axes"),
+            paper_builder("PAH+SPFH", "projected_measure", "facing_axes"),
+            paper_builder("PAH+LSPH", "projected_measure", "longest_axes"),
+            paper_builder("SAH+SPFH", "surface_measure", "facing_axes"),
+            all_axes_builder("sah-axes", "surface_measure", "measured_cost", false),
+            all_axes_builder("sah-best", "surface_measure", "overlap_cost", true),
+            all_axes_builder("blend", "expected_measure", "overlap_cost", true)};
 }
 
 std::vector<StudyBuilder> parameter_cases() {
@@ -133,11 +150,12 @@ std::vector<StudyBuilder> parameter_cases() {
         {0.4f, 1.3f, 0.9f}, {0.1f, 1.3f, 0.9f}, {0.8f, 1.3f, 0.9f}, {0.4f, 1.1f, 0.7f}, {0.4f, 1.5f, 1.1f}};
     std::vector<StudyBuilder> cases;
     for (const auto& [quality, acceptable, excellent] : thresholds) {
-        TopDownOptions options = paper_options("projected_measure", "facing_axes");
-        options.split_plane_quality = quality;
-        options.acceptable_children = acceptable;
-        options.excellent_children = excellent;
-        cases.push_back({"case " + std::to_string(cases.size()), options});
+        StudyBuilder builder = paper_builder("", "projected_measure", "facing_axes");
+        builder.name = "case " + std::to_string(cases.size());
+        builder.options.split_plane_quality = quality;
+        builder.options.acceptable_children = acceptable;
+        builder.options.excellent_children = excellent;
+        cases.push_back(std::move(builder));
     }
     return cases;
 }
@@ -152,7 +170,7 @@ ConfigurationResult study_configuration(Device& device, const Configuration& con
     const Primitives primitives = upload_primitives(device, local);
     const Buffer<Ray> device_rays = upload(device, rays, "rays");
     for (const StudyBuilder& builder : builders)
-        result.trees[builder.name] = study_tree(device, primitives, configuration.record, builder.options, device_rays);
+        result.trees[builder.name] = study_tree(device, primitives, configuration.record, builder, device_rays);
     return result;
 }
 

@@ -17,12 +17,16 @@ namespace boxwood::cli {
 struct StudyBuilder {
     std::string name;
     TopDownOptions options;
+    bool barycentres = false;   ///< Primitives go by barycentres, as in the paper, not by the centres of their boxes.
+    bool costed_leaves = false; ///< Leaves by cost, besides those of the options.
 };
 
 /// The base of all ratios.
 inline constexpr const char* study_base = "SAH+LSPH";
 
-/// The paper's four builders with its parameters (8.1.1, table 1), the base first; surface area with all axes tried; and ours.
+/// The paper's four builders with its parameters (8.1.1, table 1), the base first. Then what the paper lacks: surface area with all
+/// axes tried at every node (sah-axes); the same with a cost of overlap and leaves by cost (sah-best); and the last with
+/// the chances of the rays that come (blend), so that the two tell what knowing the rays is worth.
 std::vector<StudyBuilder> study_builders();
 
 /// The five cases of the paper's table 2, all of PAH+SPFH.

@@ -31,7 +31,8 @@ constexpr const char* head =
     "scene,area,orientation,builder,estimated_pah_cost,estimated_sah_cost,real_cost_local,more,"
     "overlap_level4,overlap_level4_culled\n";
 
-const std::vector<std::string> builders{"SAH+LSPH", "PAH+SPFH", "PAH+LSPH", "SAH+SPFH", "sah-axes", "blend"};
+const std::vector<std::string> builders{"SAH+LSPH", "PAH+SPFH", "PAH+LSPH", "SAH+SPFH",
+                                        "sah-axes", "sah-best", "blend"};
 
 Json study(const Tool& tool, const std::string& arguments) {
     tool.succeed("study influence " + arguments + " --quiet --report s.json");
