@@ -9,7 +9,6 @@
 #ifndef BOXWOOD_HIERARCHY_SPLIT_H
 #define BOXWOOD_HIERARCHY_SPLIT_H
 #include "hierarchy/strategies.h"
-#include "runtime/inserted.h"
 #include "runtime/inline.h"
 
 #if !defined(BINS) || !defined(BIN_BOX) || !defined(BLOCK)

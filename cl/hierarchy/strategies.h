@@ -37,17 +37,6 @@ inline float measured_cost(const Distribution* d, const Pair* pair) {
     return pair->left_chance * block_cost(pair->left_count) + pair->right_chance * block_cost(pair->right_count);
 }
 
-/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both children
-/// share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
-inline float overlap_cost(const Distribution* d, const Pair* pair) {
-    const float cost = measured_cost(d, pair);
-    const Box shared = {(float4)(GREATER(pair->left.a.xyz, pair->right.a.xyz), fmin(pair->left.a.w, pair->right.a.w)),
-                        LESSER(pair->left.b, pair->right.b)};
-    const float3 extent = extent_of(shared);
-    if (!(extent.x >= 0.0f && extent.y >= 0.0f && extent.z >= 0.0f)) return cost;
-    return cost + 0.25f * MEASURE(d, shared) * block_cost(min(pair->left_count, pair->right_count));
-}
-
 /// Planes across the longer extents are the better ones; a point has no better axis.
 inline void longest_axes(const Distribution* d, Box node, uint level, float quality[3]) {
     (void)d;
@@ -111,6 +100,20 @@ inline bool never(const Distribution* d, const Thresholds* t, const NodeState* s
     (void)t;
     (void)s;
     return false;
+}
+
+// The caller's own functions; they may use all of the above.
+#include "runtime/inserted.h"
+
+/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both children
+/// share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
+inline float overlap_cost(const Distribution* d, const Pair* pair) {
+    const float cost = measured_cost(d, pair);
+    const Box shared = {(float4)(GREATER(pair->left.a.xyz, pair->right.a.xyz), fmin(pair->left.a.w, pair->right.a.w)),
+                        LESSER(pair->left.b, pair->right.b)};
+    const float3 extent = extent_of(shared);
+    if (!(extent.x >= 0.0f && extent.y >= 0.0f && extent.z >= 0.0f)) return cost;
+    return cost + 0.25f * MEASURE(d, shared) * block_cost(min(pair->left_count, pair->right_count));
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the top-down builder share: where nodes are written, and the rays of a tree.
+// What the kernels of the top-down builder share: how nodes are written.
 //
 // OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
 #ifndef BOXWOOD_HIERARCHY_TOPDOWN_H
@@ -41,18 +41,6 @@ INLINE float4 centre_of(float8 record, global const float* centres) {
 #else
     return middle_of(record);
 #endif
-}
-
-/// The rays of tree `tree`.
-INLINE void rays_of(Distribution* d, global const Aabb* tree_bounds, global const InfluenceRecord* areas,
-                    global const uint* area_starts, uint tree) {
-    const uint first = area_starts ? area_starts[tree] : 0;
-    d->areas = areas + first;
-    d->area_count = area_starts ? area_starts[tree + 1] - first : 0;
-    d->isotropic = 1.0f;
-    for (uint i = 0; i < d->area_count; ++i) d->isotropic -= d->areas[i].share;
-    d->isotropic = max(d->isotropic, 0.0f);
-    d->root = load_box(tree_bounds + tree);
 }
 
 #endif

@@ -181,7 +181,7 @@ void topdown_choose(global LargeNode* nodes, global const float8* node_bins, glo
     if (i >= node_count) return;
     const LargeNode node = nodes[i];
     Distribution rays;
-    rays_of(&rays, tree_bounds, areas, area_starts, node.tree);
+    rays_of_tree(tree_bounds, areas, area_starts, node.tree, &rays);
     const Thresholds limits = *thresholds;
     const float8 bounds = vload8(0, nodes[i].bounds);
     const Question question = {bounds, node.count, node.level, slices_of(node.count), chance_of(&rays, bounds, false)};

@@ -139,7 +139,7 @@ void topdown_subtrees(global const SmallNode* small_nodes, global float8* record
     for (uint i = begin; i < end; ++i) {
         const SmallNode small = small_nodes[i];
         Distribution rays;
-        rays_of(&rays, tree_bounds, areas, area_starts, small.tree);
+        rays_of_tree(tree_bounds, areas, area_starts, small.tree, &rays);
         const Work work = {&nodes, &limits, &rays, {records, other_records}, centres};
         Node root;
         root.first = small.first;

@@ -258,6 +258,12 @@ TopDownTree topdown_within(Device& device, BufferView<const Aabb> boxes, BufferV
     tree.leaves = make_scratch<std::uint32_t>(device, count, "leaves");
     if (count == 0) return tree;
     fill<std::uint32_t>(device, tree.leaves, 0);
+    Buffer<std::uint32_t> no_areas;
+    if (area_starts.size() == 0) {
+        no_areas = make_scratch<std::uint32_t>(device, tree.topology.offsets.size(), "areas of trees");
+        fill<std::uint32_t>(device, no_areas, 0);
+        area_starts = no_areas;
+    }
     Growth growth(device, centres, tree_bounds, areas, area_starts, options, tree.topology, tree.leaves);
     growth.place(boxes);
     growth.plant();

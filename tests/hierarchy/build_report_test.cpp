@@ -76,8 +76,8 @@ constexpr double tolerance = 1e-5; // sums of a few hundred floats, pairwise
 TEST_CASE("build report: metrics of one level equal sums in double") {
     const Scene scene = scene_of({random_mesh(999, 1.0f, 0.2f, 5)});
     BuildReport report;
-    const TreeImage image = download(
-        test_device(), build(test_device(), scene, {Levels::one, Layout::binary, MortonBits::bits30}, &report));
+    const TreeImage image =
+        download(test_device(), build(test_device(), scene, {Levels::one, Layout::binary}, &report));
     const Metrics metrics = measure_tree(image.binary_nodes, 0);
     CHECK(report.all.sum_area == doctest::Approx(metrics.area).epsilon(tolerance));
     CHECK(report.all.sum_volume == doctest::Approx(metrics.volume).epsilon(tolerance));
@@ -86,7 +86,7 @@ TEST_CASE("build report: metrics of one level equal sums in double") {
     CHECK(report.nodes == image.binary_nodes.size());
     // The metrics are those of the binary tree, whatever the layout.
     BuildReport wide;
-    const Tree tree = build(test_device(), scene, {Levels::one, Layout::wide8, MortonBits::bits30}, &wide);
+    const Tree tree = build(test_device(), scene, {Levels::one, Layout::wide8}, &wide);
     CHECK(wide.all.sum_area == report.all.sum_area);
     CHECK(wide.all.sum_volume == report.all.sum_volume);
     CHECK(wide.sah == report.sah);
@@ -97,8 +97,8 @@ TEST_CASE("build report: metrics of one level equal sums in double") {
 TEST_CASE("build report: metrics of two levels equal sums in double") {
     const Scene scene = two_level_scene(10.0f);
     BuildReport report;
-    const TreeImage image = download(
-        test_device(), build(test_device(), scene, {Levels::two, Layout::binary, MortonBits::bits30}, &report));
+    const TreeImage image =
+        download(test_device(), build(test_device(), scene, {Levels::two, Layout::binary}, &report));
     const Metrics top = measure_tree(image.binary_top, 0);
     const Metrics bottom[] = {measure_tree(image.binary_nodes, 0), measure_tree(image.binary_nodes, 200),
                               measure_tree(image.binary_nodes, 201)};
@@ -156,7 +156,7 @@ TEST_CASE("build: what cannot fit is refused before any work, with both numbers"
     device.take_profile();
     const std::uint64_t held = device.held_bytes();
     try {
-        build(device, scene, {Levels::one, Layout::wide8, MortonBits::bits30});
+        build(device, scene, {Levels::one, Layout::wide8});
         FAIL("did not throw");
     } catch (const CapacityError& error) {
         CHECK(error.asked == std::uint64_t(1) << 31);

@@ -28,8 +28,11 @@ std::vector<BuildOptions> all_options() {
     std::vector<BuildOptions> all;
     for (const Levels levels : {Levels::one, Levels::two})
         for (const Layout layout : {Layout::binary, Layout::wide8})
-            for (const MortonBits morton : {MortonBits::bits30, MortonBits::bits63})
-                all.push_back({levels, layout, morton});
+            for (const auto& [builder, morton] : {std::pair{Builder::lbvh, MortonBits::bits30},
+                                                  {Builder::lbvh, MortonBits::bits63},
+                                                  {Builder::sah, MortonBits::bits30},
+                                                  {Builder::midpoint, MortonBits::bits30}})
+                all.push_back({levels, layout, builder, morton});
     return all;
 }
 
@@ -280,10 +283,10 @@ TEST_CASE("build: the same bytes every time and at every tuning") {
 TEST_CASE("build: each of 50 meshes has the tree that it has alone") {
     std::vector<Mesh> meshes;
     for (std::uint32_t i = 0; i < 50; ++i) meshes.push_back(random_mesh(1 + 7 * i % 40, 1.0f, 0.1f, i));
-    const TreeImage all = build_image(scene_of(meshes), {Levels::two, Layout::binary, MortonBits::bits30});
+    const TreeImage all = build_image(scene_of(meshes), {Levels::two, Layout::binary});
     std::uint32_t first = 0;
     for (const Mesh& mesh : meshes) {
-        TreeImage alone = build_image(scene_of({mesh}), {Levels::one, Layout::binary, MortonBits::bits30});
+        TreeImage alone = build_image(scene_of({mesh}), {Levels::one, Layout::binary});
         const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
         for (BinaryNode& node : alone.binary_nodes)
             for (std::uint32_t& child : node.child)
@@ -299,7 +302,7 @@ TEST_CASE("build: each of 50 meshes has the tree that it has alone") {
 
 TEST_CASE("build: a scene scaled by a power of two has the same tree, scaled") {
     const Mesh mesh = random_mesh(500, 1.0f, 0.1f, 4);
-    const BuildOptions options{Levels::one, Layout::wide8, MortonBits::bits63};
+    const BuildOptions options{Levels::one, Layout::wide8, Builder::lbvh, MortonBits::bits63};
     const TreeImage plain = build_image(scene_of({mesh}), options);
     for (const int k : {-60, -40, 40, 59}) {
         CAPTURE(k);

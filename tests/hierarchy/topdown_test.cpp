@@ -25,13 +25,13 @@ struct Result {
     std::uint64_t splits, axes_tried, fallbacks;
 };
 
-struct Forest {
+struct Boxes {
     std::vector<Aabb> boxes;
     std::vector<std::uint32_t> offsets{0};
     std::vector<float> centres; ///< Empty: the middles of the boxes.
 };
 
-Result run(const Forest& forest, const TopDownOptions& options, const std::vector<InfluenceRecord>& areas = {},
+Result run(const Boxes& forest, const TopDownOptions& options, const std::vector<InfluenceRecord>& areas = {},
            const std::vector<std::uint32_t>& area_starts = {}) {
     Device& device = test_device();
     const Buffer<Aabb> boxes = upload(device, forest.boxes, "boxes");
@@ -47,9 +47,9 @@ Result run(const Forest& forest, const TopDownOptions& options, const std::vecto
 /// Boxes of triangles spread in a cube, or in a plane, or on few places.
 enum class Spread { cube, plane, line, places, sizes };
 
-Forest random_forest(const std::vector<std::uint32_t>& sizes, Spread spread, std::uint64_t salt) {
+Boxes random_boxes(const std::vector<std::uint32_t>& sizes, Spread spread, std::uint64_t salt) {
     Random random(salt);
-    Forest forest;
+    Boxes forest;
     for (const std::uint32_t size : sizes) {
         for (std::uint32_t i = 0; i < size; ++i) {
             Aabb box;
@@ -69,14 +69,14 @@ Forest random_forest(const std::vector<std::uint32_t>& sizes, Spread spread, std
     return forest;
 }
 
-Forest scaled(Forest forest, float factor) {
+Boxes scaled(Boxes forest, float factor) {
     for (Aabb& box : forest.boxes)
         for (int k = 0; k < 3; ++k) box.min[k] *= factor, box.max[k] *= factor;
     return forest;
 }
 
 /// The same trees as recursion gives, node by node, and the same counts.
-void check(const Forest& forest, const TopDownOptions& options, const ReferenceRules& rules) {
+void check(const Boxes& forest, const TopDownOptions& options, const ReferenceRules& rules) {
     const Result result = run(forest, options);
     const ReferenceTree wanted = reference_topdown(forest.boxes, forest.centres, forest.offsets, options, rules);
     CHECK(difference(result.topology, wanted.topology) == "");
@@ -114,9 +114,9 @@ TEST_CASE("topdown: the surface area heuristic splits as recursion does, large a
             // Around the 64 primitives above which the shortest slices make nodes large, and many levels above them.
             for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 63u, 64u, 65u, 129u, many()}) {
                 CAPTURE(count);
-                check(random_forest({count}, spread, count), quality_options(1), quality_rules());
+                check(random_boxes({count}, spread, count), quality_options(1), quality_rules());
             }
-            check(random_forest({many() / 3}, spread, 5), quality_options(4), quality_rules());
+            check(random_boxes({many() / 3}, spread, 5), quality_options(4), quality_rules());
         }
     }
 }
@@ -125,16 +125,16 @@ TEST_CASE("topdown: forests, with trees that are large, small, and of one primit
     for (const Tuning& tuning : tunings()) {
         CAPTURE(tuning.work_items);
         const TuningScope scope(tuning);
-        const Forest forest = random_forest({1, many() / 4, 1, 2, 64, 65, 3, many() / 6, 1}, Spread::sizes, 9);
+        const Boxes forest = random_boxes({1, many() / 4, 1, 2, 64, 65, 3, many() / 6, 1}, Spread::sizes, 9);
         check(forest, quality_options(1), quality_rules());
         check(forest, quality_options(4), quality_rules());
     }
-    check(random_forest({1, 1, 1}, Spread::cube, 9), quality_options(1), quality_rules());
+    check(random_boxes({1, 1, 1}, Spread::cube, 9), quality_options(1), quality_rules());
     check({}, quality_options(1), quality_rules());
 }
 
 TEST_CASE("topdown: primitives by centres of their own") {
-    Forest forest = random_forest({many() / 2, 70, 2}, Spread::cube, 11);
+    Boxes forest = random_boxes({many() / 2, 70, 2}, Spread::cube, 11);
     Random random(12);
     for (std::size_t i = 0; i < 3 * forest.boxes.size(); ++i) forest.centres.push_back(random.uniform(-2.0f, 2.0f));
     TopDownOptions options = quality_options(1);
@@ -144,7 +144,7 @@ TEST_CASE("topdown: primitives by centres of their own") {
 }
 
 TEST_CASE("topdown: axes, thresholds and the fallback as in figure 9") {
-    const Forest forest = random_forest({many() / 4, 66}, Spread::sizes, 13);
+    const Boxes forest = random_boxes({many() / 4, 66}, Spread::sizes, 13);
     for (const float quality : {0.0f, 0.4f, 0.7f, 1.0f}) {
         for (const float acceptable : {0.0f, 1.1f, 1.3f}) {
             for (const float excellent : {0.0f, 0.9f, 1.2f}) {
@@ -168,7 +168,7 @@ TEST_CASE("topdown: axes, thresholds and the fallback as in figure 9") {
 TEST_CASE("topdown: leaves by every threshold, at every size of node") {
     for (const Tuning& tuning : tunings()) {
         const TuningScope scope(tuning);
-        const Forest forest = random_forest({many() / 4, 2}, Spread::cube, 17);
+        const Boxes forest = random_boxes({many() / 4, 2}, Spread::cube, 17);
         const auto with = [&](auto set) {
             TopDownOptions options;
             set(options);
@@ -189,25 +189,25 @@ TEST_CASE("topdown: halves in the middle of the longest axis") {
     TopDownOptions options = topdown_options(Builder::midpoint, 1);
     ReferenceRules rules = reference_rules();
     rules.thresholds = false;
-    check(random_forest({many() / 2}, Spread::sizes, 19), options, rules);
-    check(random_forest({many() / 2}, Spread::places, 19), options, rules);
+    check(random_boxes({many() / 2}, Spread::sizes, 19), options, rules);
+    check(random_boxes({many() / 2}, Spread::places, 19), options, rules);
 }
 
 TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted without an absolute size") {
     for (const float place : {0.0f, 1.0f, -1e18f, 1e-38f}) {
         CAPTURE(place);
-        const Forest forest{std::vector<Aabb>(100, {{place, place, place}, {place, place, place}}), {0, 100}, {}};
+        const Boxes forest{std::vector<Aabb>(100, {{place, place, place}, {place, place, place}}), {0, 100}, {}};
         check(forest, quality_options(1), quality_rules());
         check(forest, quality_options(4), quality_rules());
     }
-    Forest mixed = random_forest({many() / 4}, Spread::cube, 23);
+    Boxes mixed = random_boxes({many() / 4}, Spread::cube, 23);
     mixed.boxes[5] = {{-1e17f, -1e17f, -1e17f}, {1e17f, 1e17f, 1e17f}};
     mixed.boxes[6] = {{1e17f, 1e17f, 1e17f}, {1e17f, 1e17f, 1e17f}};
     check(mixed, quality_options(1), quality_rules());
 }
 
 TEST_CASE("topdown: scaling by powers of two changes nothing") {
-    const Forest forest = random_forest({many() / 2, 65}, Spread::sizes, 29);
+    const Boxes forest = random_boxes({many() / 2, 65}, Spread::sizes, 29);
     TopDownOptions paper;
     paper.bin_box = true;
     for (const TopDownOptions& options : {quality_options(1), quality_options(4), paper}) {
@@ -223,7 +223,7 @@ TEST_CASE("topdown: scaling by powers of two changes nothing") {
 
 TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
     // Every box twice as far and as large as the one before: planes part off a few each time.
-    Forest forest;
+    Boxes forest;
     for (int i = 0; i < 120; ++i) {
         const float at = std::exp2(static_cast<float>(i) - 60.0f);
         forest.boxes.push_back({{at, at, at}, {1.5f * at, 1.5f * at, 1.5f * at}});
@@ -261,7 +261,7 @@ TEST_CASE("topdown: strategies in OpenCL of one's own") {
     };
     rules.axes = [](const Aabb&, std::uint32_t) { return std::array<float, 3>{0.0f, 0.5f, 1.0f}; };
     rules.thresholds = true;
-    const Forest forest = random_forest({many() / 4}, Spread::sizes, 31);
+    const Boxes forest = random_boxes({many() / 4}, Spread::sizes, 31);
     const Result result = run(forest, options);
     TopDownOptions same = options;
     same.max_leaf_primitives = 7;
@@ -278,7 +278,7 @@ TEST_CASE("topdown: strategies in OpenCL of one's own") {
 }
 
 TEST_CASE("topdown: options out of range are refused by name") {
-    const Forest forest = random_forest({3}, Spread::cube, 1);
+    const Boxes forest = random_boxes({3}, Spread::cube, 1);
     const auto refuse = [&](auto set) {
         TopDownOptions options;
         set(options);
