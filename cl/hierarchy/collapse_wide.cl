@@ -4,8 +4,10 @@
 // first, so children stand together and after their parents.
 //
 // TRIANGLE_LEAVES  1: a leaf is a block of up to four triangles; 0: a leaf is one primitive, named by its own index
-// compile: TRIANGLE_LEAVES=1
-// compile: TRIANGLE_LEAVES=0
+// NAMED            1: blocks name triangles by a table; 0: by their index within the tree
+// compile: TRIANGLE_LEAVES=1 NAMED=0
+// compile: TRIANGLE_LEAVES=1 NAMED=1
+// compile: TRIANGLE_LEAVES=0 NAMED=0
 #include "runtime/numerics.h"
 #include "primitives/segments.h"
 #include "hierarchy/forest.h"
@@ -13,8 +15,8 @@
 #include "shared/node.h"
 #include "shared/triangle.h"
 
-#ifndef TRIANGLE_LEAVES
-#error "define TRIANGLE_LEAVES"
+#if !defined(TRIANGLE_LEAVES) || !defined(NAMED)
+#error "define TRIANGLE_LEAVES and NAMED"
 #endif
 
 /// True when `node` as one box is a leaf. The binary node count is below 2^30, so node indices (below 2 count) leave the
@@ -168,10 +170,15 @@ inline void store_rows(float3 p0, float3 p1, float3 p2, float3 p3, global float*
     vstore4((float4)(p0.z, p1.z, p2.z, p3.z), 0, z);
 }
 
-/// Block of the triangles at positions [range.x, range.y], ascending by primitive; primitives are counted from
-/// `first_triangle`, the start of their mesh.
-inline void write_block(global Triangle4* block, uint2 range, global const uint* order, global const float* positions,
-                        global const uint* triangles, uint first_triangle) {
+/// What a block calls triangle `primitive` of the tree that starts at `first_triangle`.
+inline uint name_of(uint primitive, uint first_triangle, global const uint* names) {
+    if (primitive == BOXWOOD_NONE) return primitive;
+    return NAMED ? names[primitive] : primitive - first_triangle;
+}
+
+/// Block of the triangles at positions [range.x, range.y], ascending by primitive, and so by name.
+inline void write_block(global Triangle4* block, uint2 range, global const uint* order, global const uint* names,
+                        global const float* positions, global const uint* triangles, uint first_triangle) {
     const uint size = range.y - range.x + 1;
     uint p0 = order[range.x];
     uint p1 = size > 1 ? order[range.x + 1] : BOXWOOD_NONE;
@@ -203,20 +210,23 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
     store_rows(a0, a1, a2, a3, block->v0_x, block->v0_y, block->v0_z);
     store_rows(b0, b1, b2, b3, block->edge1_x, block->edge1_y, block->edge1_z);
     store_rows(c0, c1, c2, c3, block->edge2_x, block->edge2_y, block->edge2_z);
-    const uint4 primitive = (uint4)(p0, p1, p2, p3);
-    vstore4(primitive == (uint4)(BOXWOOD_NONE) ? primitive : primitive - first_triangle, 0, block->primitive);
+    block->primitive[0] = name_of(p0, first_triangle, names);
+    block->primitive[1] = name_of(p1, first_triangle, names);
+    block->primitive[2] = name_of(p2, first_triangle, names);
+    block->primitive[3] = name_of(p3, first_triangle, names);
 }
+
 /// Writes the triangle blocks [first_leaf, first_leaf + leaves) of one level.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void write_blocks(global const uint* leaf_sources, global const uint* far_ends, global const uint* order,
-                  global const uint* offsets, global const float* positions, global const uint* triangles,
-                  global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves, uint slice) {
+                  global const uint* offsets, global const uint* names, global const float* positions,
+                  global const uint* triangles, global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, leaves);
     for (uint i = begin; i < end; ++i) {
         const uint2 range = range_of(leaf_sources[i], far_ends, count);
         const uint first_triangle = offsets[segment_of(offsets, trees, range.x)];
-        write_block(blocks + first_leaf + i, range, order, positions, triangles, first_triangle);
+        write_block(blocks + first_leaf + i, range, order, names, positions, triangles, first_triangle);
     }
 }
 #endif

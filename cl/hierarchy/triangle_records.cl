@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The leaves of the binary layouts.
-// compile:
+//
+// NAMED  1: leaves name triangles by a table; 0: by their index within the tree
+// compile: NAMED=0
+// compile: NAMED=1
 #include "runtime/numerics.h"
 #include "primitives/segments.h"
 #include "shared/triangle.h"
 
-/// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh, for the positions
+#ifndef NAMED
+#error "define NAMED"
+#endif
+
+/// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh or by names[], for the positions
 /// of one slice.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void triangle_records(global const uint* order, global const uint* offsets, global const float* positions,
-                      global const uint* triangles, global Triangle* records, uint trees, uint count, uint slice) {
+void triangle_records(global const uint* order, global const uint* offsets, global const uint* names,
+                      global const float* positions, global const uint* triangles, global Triangle* records, uint trees, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
@@ -25,7 +32,7 @@ void triangle_records(global const uint* order, global const uint* offsets, glob
             record.edge1[k] = positions[3 * (size_t)corner[1] + k] - a;
             record.edge2[k] = positions[3 * (size_t)corner[2] + k] - a;
         }
-        record.primitive = primitive - offsets[tree];
+        record.primitive = NAMED ? names[primitive] : primitive - offsets[tree];
         record.reserved1 = record.reserved2 = 0;
         records[i] = record;
     }

@@ -29,8 +29,9 @@ BOXWOOD_SHARED_SIZE(Hit, 20)
 typedef struct RayStatistics {
     uint volumes; ///< Bounding volumes tested (a wide8 node counts its non-empty children).
     uint primitives; ///< Triangles tested.
+    uint areas;      ///< 0: only the global tree was searched; 1: that of an influence area before; 2: that one only.
 } RayStatistics;
-BOXWOOD_SHARED_SIZE(RayStatistics, 8)
+BOXWOOD_SHARED_SIZE(RayStatistics, 12)
 
 BOXWOOD_SHARED_END
 #endif

@@ -6,6 +6,7 @@
 // ORIENTED        1: `binary` nodes with oriented boxes; 0: axis-aligned boxes.
 // LEVELS          1: one tree in world space; 2: a tree over instances above a tree per mesh.
 // FLATTENED       1: one level that holds the triangles of several instances; 0: anything else.
+// AREAS           1: influence areas with trees of their own, searched first; one level only.
 // STATISTICS      1: count the volumes and primitives tested.
 // STACK_SIZE      Entries of the stack, see stack.h.
 // PORTABLE_LANES  See runtime/lanes.h.
@@ -13,15 +14,16 @@
 #define BOXWOOD_TRAVERSE_CONFIG_H
 
 #if !defined(ANY_HIT) || !defined(LAYOUT) || !defined(ORIENTED) || !defined(LEVELS) || !defined(FLATTENED) || \
-    !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
-#error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, STATISTICS, STACK_SIZE and GROUP_SIZE"
+    !defined(AREAS) || !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
+#error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, AREAS, STATISTICS, STACK_SIZE and GROUP_SIZE"
 #endif
-#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || STACK_SIZE < 1
-#error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only one level can be flattened, and the stack is not empty"
+#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || (AREAS && (LEVELS != 1 || ORIENTED)) || STACK_SIZE < 1
+#error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only one level can be flattened, only one level of axis-aligned boxes has areas, and the stack is not empty"
 #endif
 
 #include "runtime/lanes.h"
 #include "runtime/numerics.h"
+#include "shared/area.h"
 #include "shared/instance.h"
 #include "shared/node.h"
 #include "shared/ray.h"

@@ -4,6 +4,9 @@
 #ifndef BOXWOOD_TRAVERSE_TRAVERSAL_H
 #define BOXWOOD_TRAVERSE_TRAVERSAL_H
 #include "traverse/visit_node.h"
+#if AREAS
+#include "traverse/area_lookup.h"
+#endif
 
 /// True once nothing can change the answer any more.
 INLINE bool is_settled(const Walk* walk) { return ANY_HIT && walk->primitive != BOXWOOD_NONE; }
@@ -50,6 +53,50 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 
 #endif
 
+#if AREAS
+
+// 0: takes every hit in a local tree for the closest, as the paper does, which is wrong beyond the region; for measurements.
+#ifndef EXIT_RULE
+#define EXIT_RULE 1
+#endif
+
+/// Searches the local tree of an area that holds the origin, then what is left with the global tree.
+///
+/// Closest hits, exactly. While a ray is in a region, which is convex, it meets only triangles that have a point there, and the
+/// local tree has all of these and those so near that rounding could bring them in (host/hierarchy/local_trees.cpp). So every
+/// triangle that the ray hits at t <= exit is in the local tree. The local search covers (t_min, exit], ends included as
+/// ray_triangle() has them: a hit there is the smallest t of all triangles, and the lowest of all at that t. Without one
+/// nothing is hit up to the exit, and the global tree is searched over (exit, t_max]. A local hit beyond the exit would be none
+/// of the two: a triangle without a point in the region may be nearer.
+///
+/// Any hit: a triangle of the local tree is one of the scene, so a hit in it is an answer wherever it lies.
+INLINE void traverse_areas(const LocalRay* ray, const Areas* areas, const Arrays* arrays, Walk* walk, entry_t* stack) {
+    const float t_max = walk->t_max;
+    float exit;
+    const uint area = find_area(areas, ray->origin, ray->direction, walk->t_min, &exit);
+    uint searches = area == BOXWOOD_NONE ? 1 : 2;
+    uint root = area == BOXWOOD_NONE ? 0 : areas->areas[area].root;
+#if EXIT_RULE && !ANY_HIT
+    if (searches == 2) walk->t_max = fmin(t_max, exit);
+#endif
+#if STATISTICS
+    walk->statistics.areas = searches - 1;
+#endif
+    while (true) {
+        traverse_bottom(ray, arrays, root, 0, walk, stack);
+        if (--searches == 0) return;
+        if (walk->primitive != BOXWOOD_NONE || exit >= t_max) break;
+        walk->t_min = exit;
+        walk->t_max = t_max;
+        root = 0;
+    }
+#if STATISTICS
+    walk->statistics.areas = 2;
+#endif
+}
+
+#endif
+
 /// Sets up `walk` and the ray in world space, with its direction scaled by the power of two *scale: distances in `walk`
 /// are t / *scale. False when the ray cannot hit anything.
 INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Walk* walk) {
@@ -63,6 +110,7 @@ INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Wa
 #if STATISTICS
     walk->statistics.volumes = 0;
     walk->statistics.primitives = 0;
+    walk->statistics.areas = 0;
 #endif
     const uint exponent = direction_exponent(direction);
     const float to_scaled = as_float(exponent << 23);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "boxwood/bxw.hpp"
+#include "cli/areas.hpp"
 #include "cli/input.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
@@ -43,12 +44,17 @@ void run(const Arguments& arguments) {
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice);
     progress.step("writing " + arguments.output.string());
-    save_bxw(arguments.output, input.scene, download(device, prepared.tree));
+    const TreeImage image = download(device, prepared.tree);
+    save_bxw(arguments.output, input.scene, image);
     Json report = base_report(device, input, prepared, {});
+    add_areas(image, prepared, report);
     report["output"] = {{"file", arguments.output.string()}, {"bytes", std::filesystem::file_size(arguments.output)}};
     save_report(arguments.report, report);
     progress.clear();
-    if (!arguments.common.quiet) print_summary(arguments, input, prepared);
+    if (!arguments.common.quiet) {
+        print_summary(arguments, input, prepared);
+        std::cout << area_summary(image, prepared);
+    }
     if (arguments.common.profile) print_profile(device, prepared);
 }
 

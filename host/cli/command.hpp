@@ -68,6 +68,7 @@ void add_example(CLI::App& command, const std::string& lines);
 /// Build options and whether any was given.
 struct BuildChoice {
     BuildOptions options;
+    std::string areas; ///< A file of influence areas; empty or "none" for none.
     std::vector<const CLI::Option*> declared;
 
     bool given() const;
@@ -82,6 +83,7 @@ CLI::Option* add_extents(CLI::App& command, BuildOptions& options);
 CLI::Option* add_measure(CLI::App& command, BuildOptions& options);
 CLI::Option* add_builder(CLI::App& command, BuildOptions& options);
 CLI::Option* add_morton(CLI::App& command, BuildOptions& options);
+CLI::Option* add_area_index(CLI::App& command, BuildOptions& options);
 
 /// The kinds of volumes.
 std::vector<std::string> bounds_words();

@@ -6,6 +6,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/requirements.hpp"
+#include "cli/areas.hpp"
 #include "cli/input.hpp"
 #include "cli/report.hpp"
 #include "hierarchy/tree_boxes.hpp"
@@ -85,6 +86,7 @@ BuildOptions options_of(const Input& input) {
     BuildOptions options;
     if (!input.tree) return options;
     options.bounds.kind = input.tree->bounds;
+    options.areas.resize(input.tree->areas.size());
     // What was asked for shows only where it is not what Levels::automatic takes.
     const bool two = input.tree->levels == Levels::two;
     if (requirements(input.scene, options).two_levels != two) options.levels = input.tree->levels;
@@ -109,7 +111,8 @@ Json tree_report(const TreeImage& tree) {
     return {{"layout", name(tree.layout)},       {"levels", name(tree.levels)},
             {"bounds", name(tree.bounds)},       {"bottom_nodes", bottom_nodes(tree)},
             {"top_nodes", top_nodes(tree)},      {"leaves", tree.triangles.size() + tree.blocks.size()},
-            {"bottom_depth", tree.bottom_depth}, {"top_depth", tree.top_depth}};
+            {"bottom_depth", tree.bottom_depth}, {"top_depth", tree.top_depth},
+            {"areas", tree.areas.size()}};
 }
 
 void print_scene(const Input& input) {
@@ -164,6 +167,10 @@ void print_tree(const TreeImage& tree) {
     if (tree.levels == Levels::two)
         std::cout << "  top         " << grouped(top_nodes(tree)) << " nodes, " << grouped(tree.instances.size())
                   << " instances, depth " << tree.top_depth << '\n';
+    if (!tree.areas.empty())
+        std::cout << "  areas       " << grouped(tree.areas.size()) << " with local trees of "
+                  << grouped(area_memory(tree).local_trees) << " bytes, found by " << name(tree.area_index.kind)
+                  << '\n';
 }
 
 void run(const Arguments& arguments) {

@@ -34,9 +34,11 @@ Input load_input(const std::filesystem::path& file, bool quiet) {
 Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) {
     if (!input.tree) {
         BuildOptions options = choice.options;
+        if (!choice.areas.empty() && choice.areas != "none") options.areas = load_areas(choice.areas);
         BuildReport report;
         Tree tree = build(device, input.scene, options, &report);
         options.layout = tree.layout;
+        options.area_index = tree.area_index;
         return {std::move(tree), options, std::move(report)};
     }
     if (choice.given())
@@ -46,6 +48,8 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
     options.layout = input.tree->layout;
     options.levels = input.tree->levels;
     options.bounds.kind = input.tree->bounds;
+    options.area_index = input.tree->area_index.kind;
+    options.areas.resize(input.tree->areas.size()); // that there are some is all that is read of them
     return {upload(device, *input.tree), options, std::nullopt};
 }
 

@@ -52,7 +52,15 @@ void BuildChoice::check() const {
         throw UsageError(
             "--layout wide8 holds axis-aligned boxes only: leave it out, or use --layout binary, with --bounds " +
             std::string(name(options.bounds.kind)));
-    if (options.builder == Builder::pah) throw UsageError("--builder pah needs influence areas");
+    const bool has_areas = !areas.empty() && areas != "none";
+    if (has_areas && options.levels == Levels::two)
+        throw UsageError("--areas needs one level, whose local trees lie in world space: leave --levels two out");
+    if (has_areas && options.bounds.kind != Bounds::aabb)
+        throw UsageError("--areas needs axis-aligned boxes: leave --bounds " + std::string(name(options.bounds.kind)) +
+                         " out");
+    if (!has_areas && options.area_index != AreaIndexKind::automatic)
+        throw UsageError("--area-index is of use with --areas only");
+    if (!has_areas && options.builder == Builder::pah) throw UsageError("--builder pah needs --areas");
     if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
         throw UsageError("--extents corners is of use with --bounds obb-moments only");
     if (options.bounds.measure == Measure::area && options.bounds.kind == Bounds::aabb)
@@ -100,6 +108,14 @@ CLI::Option* add_builder(CLI::App& command, BuildOptions& options) {
         ->check(CLI::IsMember({"lbvh", "sah", "midpoint", "pah"}));
 }
 
+CLI::Option* add_area_index(CLI::App& command, BuildOptions& options) {
+    return command
+        .add_option_function<std::string>(
+            "--area-index", [&](const std::string& word) { options.area_index = to_area_index(word); },
+            "How the influence areas of a point are found (default: list for up to eight, else kd)")
+        ->check(CLI::IsMember({"list", "octree", "kd"}));
+}
+
 void add_build_options(CLI::App& command, BuildChoice& choice) {
     BuildOptions& options = choice.options;
     choice.declared = {
@@ -118,6 +134,12 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         add_measure(command, options),
         add_builder(command, options),
         add_morton(command, options),
+        command
+            .add_option(
+                "--areas", choice.areas,
+                "Influence areas with trees of their own for the rays that follow them: a JSON file, or none (default)")
+            ->type_name("FILE"),
+        add_area_index(command, options),
     };
 }
 

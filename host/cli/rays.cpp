@@ -46,13 +46,18 @@ RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays) {
     const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "ray statistics");
     closest_hit(device, tree, rays, hits, statistics);
+    RayWork work;
     std::uint64_t volumes = 0, primitives = 0;
     for (const RayStatistics& each : download(device, statistics)) {
         volumes += each.volumes;
         primitives += each.primitives;
+        work.affine_rays += each.areas != 0;
+        work.answered_locally += each.areas == 2;
     }
     const auto count = static_cast<double>(rays.size());
-    return {static_cast<double>(volumes) / count, static_cast<double>(primitives) / count};
+    work.volumes_per_ray = static_cast<double>(volumes) / count;
+    work.primitives_per_ray = static_cast<double>(primitives) / count;
+    return work;
 }
 
 double mrays_per_s(std::size_t rays, double ms) { return ms > 0.0 ? static_cast<double>(rays) / ms * 1e-3 : 0.0; }

@@ -30,6 +30,8 @@ Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, cons
 struct RayWork {
     double volumes_per_ray = 0.0;
     double primitives_per_ray = 0.0;
+    std::uint64_t affine_rays = 0;      ///< That searched the tree of an influence area first.
+    std::uint64_t answered_locally = 0; ///< Of those, that needed no other.
 };
 
 /// By a program of its own, so that counting costs a timed one nothing. Zeros for no rays.

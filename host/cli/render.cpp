@@ -11,6 +11,7 @@
 #include "boxwood/rays.hpp"
 #include "boxwood/render.hpp"
 #include "boxwood/requirements.hpp"
+#include "cli/areas.hpp"
 #include "cli/input.hpp"
 #include "cli/light.hpp"
 #include "cli/render_work.hpp"
@@ -270,6 +271,7 @@ void run(const Arguments& arguments) {
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
         query.push_back("statistics");
     Json report = base_report(device, input, prepared, query);
+    if (!prepared.options.areas.empty()) add_areas(download(device, prepared.tree), prepared, report);
     for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
     for (const std::string& warning : around.warnings)
         report["scene"]["warnings"].push_back(around.name + ": " + warning);

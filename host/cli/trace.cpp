@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "boxwood/rays.hpp"
+#include "cli/areas.hpp"
 #include "cli/input.hpp"
 #include "cli/progress.hpp"
 #include "cli/rays.hpp"
@@ -98,6 +99,10 @@ void add_to_report(const Arguments& arguments, const Input& input, const Result&
                        {"timed_runs", timed_runs},
                        {"median_ms", result.median_ms},
                        {"checksum", hash.str()}};
+    if (report.contains("areas")) {
+        report["areas"]["affine_rays"] = result.work.affine_rays;
+        report["areas"]["answered_locally"] = result.work.answered_locally;
+    }
 }
 
 void print_summary(const Arguments& arguments, const Result& result) {
@@ -105,6 +110,9 @@ void print_summary(const Arguments& arguments, const Result& result) {
               << std::fixed << std::setprecision(2) << mrays_per_s(result.rays, result.median_ms)
               << " Mray/s (median of " << timed_runs << "), " << result.work.volumes_per_ray << " volumes and "
               << result.work.primitives_per_ray << " triangles tested per ray\n";
+    if (result.work.affine_rays > 0)
+        std::cout << grouped(result.work.affine_rays) << " rays followed an influence area, "
+                  << grouped(result.work.answered_locally) << " of them were answered by its tree\n";
 }
 
 void run(const Arguments& arguments) {
@@ -132,6 +140,7 @@ void run(const Arguments& arguments) {
         result.work = count_work(device, prepared.tree, rays);
     }
     Json report = base_report(device, input, prepared, {"statistics"});
+    if (!prepared.options.areas.empty()) add_areas(download(device, prepared.tree), prepared, report);
     add_to_report(arguments, input, result, report);
     save_report(arguments.report, report);
     progress.clear();

@@ -47,6 +47,7 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
     BuildParts parts;
     tree = build_tree(device, scene, options, parts);
     parts.geometry = {};
+    parts.local.names = {};
     parts.mesh_boxes = {};
     add_instance_lookup(device, scene, tree);
 
@@ -56,6 +57,7 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
         report->upload_ms = Milliseconds(parts.uploaded - start).count();
         report->profile = device.take_profile();
         report->peak_device_bytes = device.peak_bytes();
+        report->areas = parts.local.reports;
         fill_quality(device, tree, parts, options.measure_overlap, *report);
     }
     return tree;

@@ -26,11 +26,14 @@ struct Collapse {
     const Topology& topology;
     BufferView<const Aabb> volumes;
     const Geometry* geometry; ///< null for trees over instances
+    BufferView<const std::uint32_t> names;
     Buffer<std::uint32_t> shares;
     std::uint32_t count = static_cast<std::uint32_t>(topology.size());
 
     KernelRef kernel(const char* name) const {
-        return {"hierarchy/collapse_wide.cl", name, {{"TRIANGLE_LEAVES", geometry ? "1" : "0"}}};
+        return {"hierarchy/collapse_wide.cl",
+                name,
+                {{"TRIANGLE_LEAVES", geometry ? "1" : "0"}, {"NAMED", names.size() > 0 ? "1" : "0"}}};
     }
 
     /// Testing a block of four triangles takes about as long as testing eight boxes; an instance stands for a tree.
@@ -99,7 +102,7 @@ void write_levels(const Collapse& c, const std::vector<Level>& levels, const Wid
         if (c.geometry) {
             const Slices leaves = cut(c.device, level.leaves);
             launch(c.device, c.kernel("write_blocks"), "triangle blocks", leaves.slices, level.leaf_sources,
-                   c.topology.far_ends, c.topology.order, c.topology.offsets, c.geometry->positions,
+                   c.topology.far_ends, c.topology.order, c.topology.offsets, c.names, c.geometry->positions,
                    c.geometry->triangles, layout.blocks, c.count, static_cast<std::uint32_t>(c.topology.trees()),
                    first_leaf, level.leaves, leaves.length);
         }
@@ -108,9 +111,9 @@ void write_levels(const Collapse& c, const std::vector<Level>& levels, const Wid
     }
 }
 
-WideLayout collapse(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
-                    const Geometry* geometry) {
-    Collapse c{device, topology, volumes, geometry, {}};
+WideLayout collapse(Device& device, const Topology& topology, BufferView<const Aabb> volumes, const Geometry* geometry,
+                    BufferView<const std::uint32_t> names) {
+    Collapse c{device, topology, volumes, geometry, names, {}};
     c.shares = choose_shares(c);
     const std::vector<Level> levels = choose_levels(c);
     c.shares = {};
@@ -131,12 +134,12 @@ WideLayout collapse(Device& device, const Topology& topology, BufferView<const A
 } // namespace
 
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
-                         const Geometry& geometry) {
-    return collapse(device, topology, volumes, &geometry);
+                         const Geometry& geometry, BufferView<const std::uint32_t> names) {
+    return collapse(device, topology, volumes, &geometry, names);
 }
 
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes) {
-    return collapse(device, topology, volumes, nullptr);
+    return collapse(device, topology, volumes, nullptr, {});
 }
 
 } // namespace boxwood

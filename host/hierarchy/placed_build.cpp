@@ -40,20 +40,22 @@ Forest forest_over(Device& device, BufferView<const Aabb> boxes, const std::vect
 }
 
 /// Lays the forest's nodes out for traversal and keeps them in `tree`.
-void collapse_bottom(Device& device, const Forest& forest, const Geometry& geometry, Tree& tree) {
+void collapse_bottom(Device& device, const BuildParts& parts, Tree& tree) {
     const Stage stage(device, "collapse");
+    const Forest& forest = parts.bottom;
+    const Geometry& geometry = parts.geometry;
     if (tree.bounds != Bounds::aabb) {
         OrientedLayout layout = collapse_oriented(device, forest.topology, forest.volumes, forest.boxes, geometry);
         tree.oriented_nodes = std::move(layout.nodes);
         tree.triangles = std::move(layout.triangles);
         tree.bottom_depth = layout.depth;
     } else if (tree.layout == Layout::wide8) {
-        WideLayout layout = collapse_wide(device, forest.topology, forest.volumes, geometry);
+        WideLayout layout = collapse_wide(device, forest.topology, forest.volumes, geometry, parts.local.names);
         tree.wide_nodes = std::move(layout.nodes);
         tree.blocks = std::move(layout.blocks);
         tree.bottom_depth = layout.depth;
     } else {
-        BinaryLayout layout = collapse_binary(device, forest.topology, forest.volumes, geometry);
+        BinaryLayout layout = collapse_binary(device, forest.topology, forest.volumes, geometry, parts.local.names);
         tree.binary_nodes = std::move(layout.nodes);
         tree.triangles = std::move(layout.triangles);
         tree.bottom_depth = layout.depth;
@@ -93,6 +95,22 @@ std::vector<std::uint32_t> first_triangles(const Scene& scene) {
     return first;
 }
 
+/// Adds the trees of influence areas to those that will be built. Node arrays are as tree.layout has them.
+void add_areas(Device& device, const Scene& flat, const BuildOptions& options, BuildParts& parts, Tree& tree) {
+    parts.local = add_local_triangles(device, flat, options, tree.layout, parts.geometry);
+    std::vector<LocalArea>& areas = parts.local.areas;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        const auto root = static_cast<std::uint32_t>(parts.offsets.size() - 1);
+        areas[i].root = tree.layout == Layout::wide8 ? root : parts.offsets[root];
+        parts.offsets.push_back(parts.offsets.back() + parts.local.sizes[i]);
+    }
+    const AreaIndex index = build_area_index(areas, options.area_index);
+    tree.areas = upload(device, areas, "influence areas");
+    tree.area_nodes = upload(device, index.nodes, "nodes of areas");
+    tree.area_items = upload(device, index.items, "lists of areas");
+    tree.area_index = index.kind;
+}
+
 /// `placed` is the scene itself for two levels, flattened for one.
 Tree build_placed(Device& device, const Scene& placed, const BuildOptions& options, bool two_levels,
                   BuildParts& parts) {
@@ -103,6 +121,7 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     parts.geometry = upload(device, placed);
     parts.uploaded = std::chrono::steady_clock::now();
     parts.offsets = triangle_offsets(placed);
+    if (!options.areas.empty()) add_areas(device, placed, options, parts, tree);
     {
         const Buffer<Aabb> boxes = triangle_boxes(device, parts.geometry);
         parts.bottom = forest_over(device, boxes, parts.offsets, options, tree.layout == Layout::wide8 ? 4 : 1);
@@ -126,6 +145,9 @@ Tree empty_tree(const BuildOptions& options) {
         throw InputError("layout", std::string(name(options.layout)),
                          "holds axis-aligned boxes only; oriented boxes (" + std::string(name(tree.bounds)) +
                              ") need the layout binary");
+    if (!options.areas.empty() && (oriented || options.levels == Levels::two))
+        throw InputError("areas", oriented ? std::string(name(tree.bounds)) : "levels two",
+                         "influence areas need one level of axis-aligned boxes");
     tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
     return tree;
 }
@@ -159,7 +181,7 @@ void lay_out(Device& device, const Scene& scene, const BuildOptions& options, Bu
         const Stage stage(device, "volumes");
         bottom.boxes = obb_volumes(device, bottom.topology, bottom.volumes, parts.geometry, options.bounds);
     }
-    collapse_bottom(device, bottom, parts.geometry, tree);
+    collapse_bottom(device, parts, tree);
     if (tree.levels == Levels::one) return;
     if (tree.bounds != Bounds::aabb) {
         const Stage stage(device, "top_level");

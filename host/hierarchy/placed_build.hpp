@@ -9,6 +9,7 @@
 #include "boxwood/build.hpp"
 #include "boxwood/geometry.hpp"
 #include "hierarchy/forest.hpp"
+#include "hierarchy/local_trees.hpp"
 
 namespace boxwood {
 
@@ -16,14 +17,14 @@ namespace boxwood {
 struct BuildParts {
     Geometry geometry;
     std::vector<std::uint32_t> offsets; ///< Where the triangles of each mesh start among all, and how many all are.
+    LocalTrees local;                   ///< Of influence areas; their triangles stand behind all, in offsets too.
     Forest bottom;
     Buffer<Obb> mesh_boxes;                         ///< Two levels of oriented boxes: by mesh, the box of its root.
     Forest top;                                     ///< Two levels.
     std::chrono::steady_clock::time_point uploaded; ///< When the geometry was on the device.
 };
 
-/// The tree that a build starts from: `options` resolved, no nodes. Throws InputError for a layout that cannot hold the
-/// volumes.
+/// The tree that a build starts from: `options` resolved, no nodes. Throws InputError for options that do not go together.
 Tree empty_tree(const BuildOptions& options);
 
 /// True when the scene is its own flattened form: one mesh, placed once without a transform.

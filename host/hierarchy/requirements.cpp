@@ -8,9 +8,11 @@ namespace boxwood {
 Requirements requirements(const Scene& scene, const BuildOptions& options) {
     Requirements needs;
     const bool shared = scene.instanced_triangle_count() > scene.triangle_count();
-    needs.two_levels = options.levels == Levels::two || (options.levels == Levels::automatic && shared);
+    needs.two_levels =
+        options.levels == Levels::two || (options.levels == Levels::automatic && shared && options.areas.empty());
     needs.instance_lookup = !needs.two_levels && scene.instances.size() > 1;
     needs.oriented_boxes = options.bounds.kind != Bounds::aabb;
+    needs.influence_areas = !options.areas.empty();
     return needs;
 }
 
@@ -37,6 +39,8 @@ std::vector<Reason> reasons(const Scene& scene, const BuildOptions& options) {
             {"instance-lookup", "one level holds " + std::to_string(scene.instances.size()) + " instances"});
     if (needs.oriented_boxes)
         result.push_back({"oriented-boxes", "the options ask for " + std::string(name(options.bounds.kind))});
+    if (needs.influence_areas)
+        result.push_back({"influence-areas", "the options bring " + std::to_string(options.areas.size())});
     const std::vector<Reason> shading = shading_reasons(scene);
     result.insert(result.end(), shading.begin(), shading.end());
     return result;
@@ -47,6 +51,7 @@ std::vector<std::string> words(const Requirements& needs) {
     if (needs.two_levels) result.push_back("two-levels");
     if (needs.instance_lookup) result.push_back("instance-lookup");
     if (needs.oriented_boxes) result.push_back("oriented-boxes");
+    if (needs.influence_areas) result.push_back("influence-areas");
     return result;
 }
 

@@ -18,6 +18,8 @@ TreeImage download(Device& device, const Tree& tree) {
     image.wide_top = download(device, tree.wide_top);
     image.instances = download(device, tree.instances);
     image.first_triangles = download(device, tree.first_triangles);
+    image.areas = download(device, tree.areas);
+    image.area_index = {tree.area_index, download(device, tree.area_nodes), download(device, tree.area_items)};
     image.bottom_depth = tree.bottom_depth;
     image.top_depth = tree.top_depth;
     return image;
@@ -38,6 +40,10 @@ Tree upload(Device& device, const TreeImage& image) {
     tree.wide_top = upload(device, image.wide_top, "wide8 top nodes");
     tree.instances = upload(device, image.instances, "instances");
     tree.first_triangles = upload(device, image.first_triangles, "first triangles");
+    tree.areas = upload(device, image.areas, "influence areas");
+    tree.area_nodes = upload(device, image.area_index.nodes, "nodes of areas");
+    tree.area_items = upload(device, image.area_index.items, "lists of areas");
+    tree.area_index = image.area_index.kind;
     tree.bottom_depth = image.bottom_depth;
     tree.top_depth = image.top_depth;
     return tree;

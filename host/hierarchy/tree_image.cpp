@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "boxwood/error.hpp"
+#include "hierarchy/area_check.hpp"
 #include "hierarchy/tree_walker.hpp"
 #include "runtime/words.hpp"
 
@@ -76,14 +77,21 @@ struct Arrays {
     std::string_view top_name;
 };
 
-/// Checks one bottom-level tree and returns its depth.
+/// Checks the nodes and leaves of one bottom-level tree and returns its depth.
 template <class LayoutArrays>
-std::uint32_t check_bottom(Walker<typename LayoutArrays::Node>& walker, std::uint32_t root, const LayoutArrays& arrays,
-                           PrimitiveSet primitives, const std::string& file) {
-    const std::uint32_t depth = walker.walk(root, [&](std::uint32_t leaf) {
+std::uint32_t walk_bottom(Walker<typename LayoutArrays::Node>& walker, std::uint32_t root, const LayoutArrays& arrays,
+                          PrimitiveSet& primitives, const std::string& file) {
+    return walker.walk(root, [&](std::uint32_t leaf) {
         const char* what = wrong_with(arrays.leaves[leaf], primitives);
         if (what) throw InputError(file, element(arrays.leaves_name, leaf), what);
     });
+}
+
+/// The same of one that must hold all `primitives`.
+template <class LayoutArrays>
+std::uint32_t check_bottom(Walker<typename LayoutArrays::Node>& walker, std::uint32_t root, const LayoutArrays& arrays,
+                           PrimitiveSet primitives, const std::string& file) {
+    const std::uint32_t depth = walk_bottom(walker, root, arrays, primitives, file);
     if (primitives.reached != primitives.count) {
         throw InputError(file, element(arrays.nodes_name, root),
                          "is the root of " + std::to_string(primitives.reached) + " primitives instead of " +
@@ -112,6 +120,24 @@ void check_instance(const InstanceRecord& record, const Instance& instance, std:
     }
 }
 
+/// The local trees of influence areas, each over some of the primitives of the global one. Returns the greatest depth.
+template <class LayoutArrays>
+std::uint32_t check_local_trees(Walker<typename LayoutArrays::Node>& walker, const TreeImage& tree, std::uint64_t count,
+                                const LayoutArrays& arrays, const std::string& file) {
+    std::uint32_t deepest = 0;
+    std::vector<bool> seen;
+    for (std::size_t i = 0; i < tree.areas.size(); ++i) {
+        const std::uint32_t root = tree.areas[i].root;
+        const auto fail = [&](const char* what) { throw InputError(file, element("areas", i) + ".root", what); };
+        if (root >= arrays.nodes.size()) fail("is out of range");
+        if (walker.reached(root)) fail("is a node of another tree");
+        seen.assign(count, false);
+        PrimitiveSet primitives{seen, 0, count};
+        deepest = std::max(deepest, walk_bottom(walker, root, arrays, primitives, file));
+    }
+    return deepest;
+}
+
 template <class LayoutArrays>
 void check_one_level(const TreeImage& tree, const Scene& scene, const LayoutArrays& arrays, const std::string& file) {
     if (!arrays.top.empty() || !tree.instances.empty()) {
@@ -131,6 +157,7 @@ void check_one_level(const TreeImage& tree, const Scene& scene, const LayoutArra
         Walker<typename LayoutArrays::Node> walker(arrays.nodes, arrays.nodes_name, arrays.leaves.size(),
                                                    LayoutArrays::is_wide, file);
         depth = check_bottom(walker, 0, arrays, {seen, 0, count}, file);
+        depth = std::max(depth, check_local_trees(walker, tree, count, arrays, file));
     }
     check_depth("bottom_depth", tree.bottom_depth, depth, file);
     check_depth("top_depth", tree.top_depth, 0, file);
@@ -223,8 +250,9 @@ void validate(const TreeImage& tree, const Scene& scene, const std::string& file
     if (oriented && tree.layout != Layout::binary)
         throw InputError(file, "bounds", "must be aabb for layout " + std::string(name(tree.layout)));
     const auto refuse = [&](bool has, const char* arrays) {
-        if (has) throw InputError(file, arrays, "must be empty for this layout and these bounds");
+        if (has) throw InputError(file, arrays, "must be empty for this layout, these levels and these bounds");
     };
+    refuse(!tree.areas.empty() && (oriented || tree.levels == Levels::two), "areas");
     const bool binary = tree.layout == Layout::binary;
     refuse(!oriented && !(tree.oriented_nodes.empty() && tree.oriented_top.empty()), "oriented_nodes and oriented_top");
     refuse((oriented || !binary) && !(tree.binary_nodes.empty() && tree.binary_top.empty()),
@@ -246,6 +274,7 @@ void validate(const TreeImage& tree, const Scene& scene, const std::string& file
         check_layout(tree, scene, arrays, file);
     }
     check_first_triangles(tree, scene, file);
+    check_areas(tree, file);
 }
 
 } // namespace boxwood

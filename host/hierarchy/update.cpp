@@ -167,6 +167,8 @@ Tree AnimatedTree::State::fit(Buffer<float>& positions) {
 
 AnimatedTree::AnimatedTree(Device& device, Scene scene, const BuildOptions& options)
     : state_(new State{device, std::move(scene), options, {}, {}, {}}) {
+    if (!options.areas.empty())
+        throw InputError("animated tree", "areas", "are not kept while triangles move; build without influence areas");
     for (const Mesh& mesh : state_->scene.meshes) state_->mesh_bounds.push_back(mesh_bounds(mesh.positions));
     rebuild();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The .bxw container, version 3. Little-endian, no padding, so that every byte is either compared or under a checksum:
+// The .bxw container, version 4. Little-endian, no padding, so that every byte is either compared or under a checksum:
 //
 //     Header
 //     SectionEntry[section_count]
@@ -58,15 +58,16 @@ struct TreeRecord {
     std::uint32_t top_depth;
     /// 0 aabb, 1 obb-points, 2 obb-boxes, 3 obb-quaternion, 4 obb-cascade, 5 obb-moments, 6 obb-refined
     std::uint32_t bounds;
+    std::uint32_t area_index; ///< 0 list, 1 octree, 2 kd; 0 without areas.
 };
-static_assert(sizeof(TreeRecord) == 20);
+static_assert(sizeof(TreeRecord) == 24);
 
 struct SectionKind {
     std::string_view name;
     std::uint64_t element_size;
 };
 
-inline constexpr std::array<SectionKind, 22> section_kinds = {{
+inline constexpr std::array<SectionKind, 25> section_kinds = {{
     {"scene", 1},                         // see bxw_scene.hpp
     {"positions", sizeof(glm::vec3)},     // of all meshes, in mesh order
     {"triangles", sizeof(glm::uvec3)},    // of all meshes, indices within the mesh
@@ -89,6 +90,9 @@ inline constexpr std::array<SectionKind, 22> section_kinds = {{
     {"wide_top", sizeof(Wide8Node)},
     {"instances", sizeof(InstanceRecord)},
     {"first_triangles", sizeof(std::uint32_t)},
+    {"areas", sizeof(LocalArea)},
+    {"area_nodes", sizeof(AreaNode)},
+    {"area_items", sizeof(std::uint32_t)},
 }};
 
 /// Running XXH64.

@@ -184,7 +184,10 @@ TreeImage read_tree(SectionReader& in, const std::string& file) {
     if (record.layout > 1) throw InputError(file, "section tree", "names an unknown layout");
     if (record.levels < 1 || record.levels > 2) throw InputError(file, "section tree", "must have one or two levels");
     if (record.bounds >= all_bounds().size()) throw InputError(file, "section tree", "names unknown bounds");
+    if (record.area_index > 2) throw InputError(file, "section tree", "names an unknown index of areas");
+    constexpr std::array indexes = {AreaIndexKind::list, AreaIndexKind::octree, AreaIndexKind::kd};
     TreeImage tree;
+    tree.area_index.kind = indexes[record.area_index];
     tree.bounds = static_cast<Bounds>(record.bounds);
     tree.layout = record.layout == 0 ? Layout::binary : Layout::wide8;
     tree.levels = record.levels == 1 ? Levels::one : Levels::two;
@@ -200,6 +203,9 @@ TreeImage read_tree(SectionReader& in, const std::string& file) {
     tree.wide_top = in.all<Wide8Node>("wide_top");
     tree.instances = in.all<InstanceRecord>("instances");
     tree.first_triangles = in.all<std::uint32_t>("first_triangles");
+    tree.areas = in.all<LocalArea>("areas");
+    tree.area_index.nodes = in.all<AreaNode>("area_nodes");
+    tree.area_index.items = in.all<std::uint32_t>("area_items");
     return tree;
 }
 

@@ -21,9 +21,18 @@ Parts one_part(const std::vector<T>& elements) {
     return {std::as_bytes(std::span(elements))};
 }
 
+/// As TreeRecord::area_index.
+std::uint32_t word_of(AreaIndexKind kind) {
+    return kind == AreaIndexKind::octree ? 1 : kind == AreaIndexKind::kd ? 2 : 0;
+}
+
 TreeRecord record_of(const TreeImage& tree) {
-    return {tree.layout == Layout::binary ? 0u : 1u, tree.levels == Levels::one ? 1u : 2u, tree.bottom_depth,
-            tree.top_depth, static_cast<std::uint32_t>(tree.bounds)};
+    return {tree.layout == Layout::binary ? 0u : 1u,
+            tree.levels == Levels::one ? 1u : 2u,
+            tree.bottom_depth,
+            tree.top_depth,
+            static_cast<std::uint32_t>(tree.bounds),
+            word_of(tree.area_index.kind)};
 }
 
 std::vector<SectionEntry> table_of(std::span<const Parts> sections) {
@@ -82,7 +91,10 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
         one_part(tree.oriented_top),
         one_part(tree.wide_top),
         one_part(tree.instances),
-        one_part(tree.first_triangles)};
+        one_part(tree.first_triangles),
+        one_part(tree.areas),
+        one_part(tree.area_index.nodes),
+        one_part(tree.area_index.items)};
     const std::vector<SectionEntry> table = table_of(sections);
     Header header{magic, bxw_version, static_cast<std::uint32_t>(table.size()), table.back().offset + table.back().size,
                   0};

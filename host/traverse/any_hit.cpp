@@ -11,8 +11,8 @@ void any_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, Buffe
     const KernelRef kernel = traversal_kernel(tree, Query::any, options);
     const auto ray_count = static_cast<std::uint32_t>(rays.size());
     const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
-        launch(device, kernel, "any hit", slices.slices, nodes, leaves, top, tree.instances, rays, ray_count,
-               slices.length, hits);
+        launch(device, kernel, "any hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
+               tree.area_nodes, tree.area_items, rays, ray_count, slices.length, hits);
     };
     if (tree.bounds != Bounds::aabb)
         run(tree.oriented_nodes, tree.triangles, tree.oriented_top);

@@ -24,8 +24,9 @@ void trace(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferV
     const auto instance_count =
         tree.first_triangles.size() == 0 ? 0u : static_cast<std::uint32_t>(tree.first_triangles.size() - 1);
     const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
-        launch(device, kernel, "closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.first_triangles,
-               instance_count, rays, ray_count, slices.length, hits, statistics);
+        launch(device, kernel, "closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
+               tree.area_nodes, tree.area_items, tree.first_triangles, instance_count, rays, ray_count, slices.length,
+               hits, statistics);
     };
     if (tree.bounds != Bounds::aabb)
         run(tree.oriented_nodes, tree.triangles, tree.oriented_top);

@@ -28,6 +28,7 @@ KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& op
              {"ORIENTED", tree.bounds != Bounds::aabb ? "1" : "0"},
              {"LEVELS", tree.levels == Levels::two ? "2" : "1"},
              {"FLATTENED", flattened ? "1" : "0"},
+             {"AREAS", tree.areas.size() != 0 ? "1" : "0"},
              {"STATISTICS", query == Query::closest_with_statistics ? "1" : "0"},
              {"STACK_SIZE", std::to_string(stack_size(tree))},
              {"PORTABLE_LANES", options.portable_lanes ? "1" : "0"}}};

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "boxwood/bounds.hpp"
 #include "boxwood/device.hpp"
+#include "boxwood/influence.hpp"
 #include "boxwood/morton.hpp"
 #include "boxwood/scene.hpp"
 #include "boxwood/tree.hpp"
@@ -31,6 +33,10 @@ struct BuildOptions {
     Builder builder = Builder::lbvh;
     MortonBits morton = MortonBits::bits30; ///< Of lbvh.
     BoundsOptions bounds = {};              ///< Oriented boxes need the binary layout.
+    /// Each that holds a triangle gets a tree of its own, which rays that follow it search first. They need one level of
+    /// axis-aligned boxes.
+    std::vector<InfluenceArea> areas = {};
+    AreaIndexKind area_index = AreaIndexKind::automatic;
     /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.
     bool measure_overlap = false;
 };
@@ -40,6 +46,11 @@ struct LevelQuality {
     double sum_volume = 0.0;
     double sum_area = 0.0;
     double obb_smaller_fraction = 0.0; ///< Share of the nodes that do not keep their AABB.
+};
+
+/// What became of an influence area.
+struct AreaReport {
+    std::uint64_t triangles = 0; ///< In its local tree; with none the area is left out.
 };
 
 /// What a build measured.
@@ -54,12 +65,14 @@ struct BuildReport {
     LevelQuality all;     ///< Both levels.
     LevelQuality bottom;  ///< In object space, each mesh once.
     LevelQuality top;     ///< In world space; zeros for one level.
-    std::uint32_t max_depth = 0; ///< Of the layout, bottom plus top level.
-    std::uint64_t nodes = 0;     ///< Of the layout, both levels.
+    std::uint32_t max_depth = 0;   ///< Of the layout, bottom plus top level.
+    std::uint64_t nodes = 0;       ///< Of the layout, both levels and all local trees.
+    std::vector<AreaReport> areas; ///< Of BuildOptions::areas.
 };
 
 /// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
-/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout. O(n) work in
+/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, and for areas
+/// that are not valid or beside two levels or oriented boxes. O(n) work in
 /// the number of primitives but for the sort's passes and exact extents (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
 

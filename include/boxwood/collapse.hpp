@@ -28,16 +28,17 @@ struct BinaryLayout {
 
 /// Collapses binary trees over triangles to wide nodes at least expected cost (Ylitie et al. 2017, section 3.1). Each
 /// subtree of up to four triangles is one leaf: a block costs the same however many of its slots are filled. One pass for the costs, then a few launches per level of the result; waits once
-/// per level for its size. `volumes` as from aabb_volumes. Throws CapacityError when the result does not fit. O(n).
+/// per level for its size. `volumes` as from aabb_volumes. Leaves name triangles by their index within the tree, or by `names`
+/// where that is not empty; names ascend within each tree. Throws CapacityError when the result does not fit. O(n).
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
-                         const Geometry& geometry);
+                         const Geometry& geometry, BufferView<const std::uint32_t> names = {});
 
 /// The same for one tree over instances: leaves are single instances.
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes);
 
-/// The `binary` layout of trees over triangles: both child boxes in the parent. O(n).
+/// The `binary` layout of trees over triangles: both child boxes in the parent. `names` as for collapse_wide. O(n).
 BinaryLayout collapse_binary(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
-                             const Geometry& geometry);
+                             const Geometry& geometry, BufferView<const std::uint32_t> names = {});
 
 /// The same for one tree over instances.
 BinaryLayout collapse_binary(Device& device, const Topology& topology, BufferView<const Aabb> volumes);

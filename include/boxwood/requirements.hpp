@@ -16,13 +16,14 @@ struct Requirements {
     bool two_levels = false;      ///< A top level over instances is built and traversed.
     bool instance_lookup = false; ///< One level over several instances: hits are mapped back to theirs.
     bool oriented_boxes = false;  ///< Volumes are oriented boxes.
+    bool influence_areas = false; ///< Local trees in influence areas are built and searched first.
 };
 
 /// Derived from scene and options. Levels::automatic takes two levels when some mesh is placed more than once, since
-/// one level would have to store it as often. O(instances + meshes).
+/// one level would have to store it as often, but one where there are influence areas. O(instances + meshes).
 Requirements requirements(const Scene& scene, const BuildOptions& options);
 
-/// The words for reports: "two-levels", "instance-lookup", "oriented-boxes".
+/// The words for reports: "two-levels", "instance-lookup", "oriented-boxes", "influence-areas".
 std::vector<std::string> words(const Requirements& requirements);
 
 /// What shading a scene needs: each member decides about a piece of the programs, and about a buffer or a part of one.

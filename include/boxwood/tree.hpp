@@ -27,6 +27,11 @@ struct Tree {
     Buffer<InstanceRecord> instances;
     Buffer<std::uint32_t> first_triangles;
 
+    Buffer<LocalArea> areas;
+    Buffer<AreaNode> area_nodes; ///< Of TreeImage::area_index, likewise the items.
+    Buffer<std::uint32_t> area_items;
+    AreaIndexKind area_index = AreaIndexKind::list;
+
     std::uint32_t bottom_depth = 0;
     std::uint32_t top_depth = 0;
 

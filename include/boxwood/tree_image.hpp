@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "boxwood/area_index.hpp"
 #include "boxwood/bounds.hpp"
 #include "boxwood/scene.hpp"
 #include "shared/instance.h"
@@ -50,7 +51,12 @@ struct TreeImage {
     /// scene, and the total at the end; instances + 1 entries, ascending. Empty otherwise.
     std::vector<std::uint32_t> first_triangles;
 
-    std::uint32_t bottom_depth = 0; ///< Most nodes on a path from a bottom root to a leaf's parent, over all meshes.
+    /// Influence areas with local trees, for one level of axis-aligned boxes: their trees stand behind the global one in the
+    /// same arrays, over triangles that it holds too, named as there.
+    std::vector<LocalArea> areas;
+    AreaIndex area_index; ///< Finds `areas`; empty without any.
+
+    std::uint32_t bottom_depth = 0; ///< Most nodes on a path from a bottom root to a leaf's parent, over all trees.
     std::uint32_t top_depth = 0;
 };
 
@@ -58,7 +64,8 @@ struct TreeImage {
 /// must itself be valid: exactly the arrays of the layout and levels are filled; every reference is in range and no node
 /// or leaf is reached twice; depths are as stated; boxes are ordered and not NaN, unused slots as shared/node.h and
 /// shared/triangle.h say; every primitive that an instance reaches is in exactly one leaf, within its mesh for two
-/// levels and within flatten(scene) for one; instance records agree with scene.instances. Nodes that no root reaches are
+/// levels and within flatten(scene) for one, and each local tree holds as many of those once; areas and their index are as
+/// shared/area.h says; instance records agree with scene.instances. Nodes that no root reaches are
 /// not read, and a mesh without an instance may be what bottom_depth counts. Does not compare boxes or triangles with the
 /// scene's positions. O(nodes + triangles + instances) time, a bit each of memory.
 void validate(const TreeImage& tree, const Scene& scene, const std::string& file);

@@ -28,7 +28,9 @@ const std::array<std::vector<std::string>, 6>& samples() {
             const Layout layout = i % 3 == 1 ? Layout::wide8 : Layout::binary;
             const Bounds bounds = i % 3 == 2 ? Bounds::obb_points : Bounds::aabb;
             const Levels levels = i < 3 ? Levels::one : Levels::two;
-            result[i] = sections_of(bxw_bytes(scene, sample_tree(scene, layout, levels, bounds)));
+            TreeImage tree = sample_tree(scene, layout, levels, bounds);
+            if (levels == Levels::one && bounds == Bounds::aabb) add_sample_area(tree);
+            result[i] = sections_of(bxw_bytes(scene, tree));
         }
         return result;
     }();

@@ -11,6 +11,7 @@
 TEST_SUITE_BEGIN("hierarchy");
 
 using namespace boxwood;
+using boxwood::test::add_sample_area;
 using boxwood::test::sample_scene;
 using boxwood::test::sample_tree;
 
@@ -94,6 +95,48 @@ TEST_CASE("the sample trees are valid and have the depths that their sizes give"
     CHECK(sample_tree(scene, Layout::binary, Levels::one).bottom_depth == 6);
     CHECK(sample_tree(scene, Layout::wide8, Levels::two).bottom_depth == 2);
     CHECK(sample_tree(scene, Layout::binary, Levels::two).top_depth == 2);
+}
+
+TEST_CASE("influence areas with their trees and an index are valid, and what is wrong with one is named") {
+    for (const Layout layout : {Layout::binary, Layout::wide8}) {
+        const auto area = [&](auto&& change) {
+            return refused_at(layout, Levels::one, [&](TreeImage& t) {
+                add_sample_area(t);
+                change(t);
+            });
+        };
+        const std::string nodes = layout == Layout::binary ? "binary_nodes" : "wide_nodes";
+        CHECK(area([](TreeImage&) {}) == "accepted");
+        CHECK(area([](TreeImage& t) { t.bottom_depth = 1; }) == "bottom_depth");
+        CHECK(area([](TreeImage& t) { t.areas[0].root = 0; }) == "areas[0].root");
+        CHECK(area([](TreeImage& t) { t.areas[0].root = 1000; }) == "areas[0].root");
+        CHECK(area([](TreeImage& t) { t.areas.push_back(t.areas[0]); }) == "areas[1].root");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.origin[1] = not_a_number; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.up[2] = 0.25f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.far = 0.0f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.half_width = infinity; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.cos_tolerance = 2.0f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.share = -1.0f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].box.min[0] = 3.0f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].reserved = 1; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes.clear(); }) == "area_nodes");
+        CHECK(area([](TreeImage& t) { t.areas.clear(); }) == "area_nodes");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[0].first = 0; }) == "area_nodes[0]"); // itself
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[0].first = 2; }) == "area_nodes[0]");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[0].axis = 3; }) == "area_nodes[0]"); // eight children
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[0].axis = 4; }) == "area_nodes[0]");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[1].first = 2; }) == "area_nodes[1]");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[1].count = 2; }) == "area_items");
+        CHECK(area([](TreeImage& t) { t.area_index.nodes[2].split[0] = 1.0f; }) == "area_nodes[2]");
+        CHECK(area([](TreeImage& t) { t.area_index.items[1] = 1; }) == "area_nodes[2]");
+        CHECK(area([](TreeImage& t) { t.area_index.kind = AreaIndexKind::automatic; }) == "area_index");
+        const auto leaf = [&](TreeImage& t, std::uint32_t primitive) {
+            (layout == Layout::binary ? t.triangles.back().primitive : t.blocks.back().primitive[0]) = primitive;
+        };
+        CHECK(area([&](TreeImage& t) { leaf(t, 1000); }) != "accepted");
+        const auto two = [](TreeImage& t) { add_sample_area(t); };
+        CHECK(refused_at(layout, Levels::two, two) == "areas");
+    }
 }
 
 TEST_CASE("an empty tree is valid for an empty scene only") {

@@ -250,6 +250,43 @@ TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds b
     return tree;
 }
 
+void add_sample_area(TreeImage& tree) {
+    InfluenceRecord region{};
+    region.right[0] = region.up[1] = region.forward[2] = 1.0f;
+    region.half_width = region.half_height = region.far = 2.0f;
+    const Aabb box{{-2, -2, 0}, {2, 2, 2}};
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const Aabb none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    std::uint32_t root = 0;
+    if (tree.layout == Layout::binary) {
+        const auto is_first = [](const Triangle& triangle) { return triangle.primitive == 0; };
+        const Triangle first = *std::find_if(tree.triangles.begin(), tree.triangles.end(), is_first);
+        const auto leaf = BOXWOOD_LEAF | static_cast<std::uint32_t>(tree.triangles.size());
+        root = static_cast<std::uint32_t>(tree.binary_nodes.size());
+        tree.triangles.push_back(first);
+        tree.binary_nodes.push_back({{box, none}, {leaf, BOXWOOD_NONE}, {0, 0}});
+    } else {
+        const auto is_first = [](const Triangle4& block) { return block.primitive[0] == 0; };
+        const Triangle4 first = *std::find_if(tree.blocks.begin(), tree.blocks.end(), is_first);
+        root = static_cast<std::uint32_t>(tree.wide_nodes.size());
+        Wide8Node node{};
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            const Aabb& slot = i == 0 ? box : none;
+            node.min_x[i] = slot.min[0], node.max_x[i] = slot.max[0];
+            node.min_y[i] = slot.min[1], node.max_y[i] = slot.max[1];
+            node.min_z[i] = slot.min[2], node.max_z[i] = slot.max[2];
+            node.child[i] = i == 0 ? BOXWOOD_LEAF | static_cast<std::uint32_t>(tree.blocks.size()) : BOXWOOD_NONE;
+        }
+        node.count = 1;
+        tree.wide_nodes.push_back(node);
+        tree.blocks.push_back(first);
+    }
+    tree.areas = {{region, box, root, 0}};
+    tree.area_index.kind = AreaIndexKind::kd;
+    tree.area_index.nodes = {{{0, 0, 1}, 2, 1, BOXWOOD_NONE}, {{}, 0, 0, 1}, {{}, 0, 1, 1}};
+    tree.area_index.items = {0, 0};
+}
+
 bool same(const Scene& a, const Scene& b) {
     const auto bits = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
     const auto instances = [&](const Instance& x, const Instance& y) {
@@ -273,6 +310,8 @@ bool same(const TreeImage& a, const TreeImage& b) {
            same_bytes(a.wide_nodes, b.wide_nodes) && same_bytes(a.blocks, b.blocks) &&
            same_bytes(a.binary_top, b.binary_top) && same_bytes(a.wide_top, b.wide_top) &&
            same_bytes(a.instances, b.instances) && same_bytes(a.first_triangles, b.first_triangles) &&
+           same_bytes(a.areas, b.areas) && a.area_index.kind == b.area_index.kind &&
+           same_bytes(a.area_index.nodes, b.area_index.nodes) && same_bytes(a.area_index.items, b.area_index.items) &&
            a.bottom_depth == b.bottom_depth && a.top_depth == b.top_depth;
 }
 

@@ -18,6 +18,10 @@ Scene sample_scene();
 /// oriented bounds every other volume stays aligned, and the others are the same boxes with their axes exchanged.
 TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds = Bounds::aabb);
 
+/// Adds an influence area with a local tree over the first triangle to a sample tree of one level with axis-aligned boxes, and an
+/// index of two cells.
+void add_sample_area(TreeImage& tree);
+
 /// Equality of everything, floats by their bits.
 bool same(const Scene& a, const Scene& b);
 bool same(const TreeImage& a, const TreeImage& b);

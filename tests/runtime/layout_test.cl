@@ -32,7 +32,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         OFFSET(Wide8Node, count), OFFSET(Wide8Node, reserved),
         sizeof(Ray), OFFSET(Ray, origin), OFFSET(Ray, t_min), OFFSET(Ray, direction), OFFSET(Ray, t_max),
         sizeof(Hit), OFFSET(Hit, t), OFFSET(Hit, u), OFFSET(Hit, v), OFFSET(Hit, primitive), OFFSET(Hit, instance),
-        sizeof(RayStatistics), OFFSET(RayStatistics, volumes), OFFSET(RayStatistics, primitives),
+        sizeof(RayStatistics), OFFSET(RayStatistics, volumes), OFFSET(RayStatistics, primitives), OFFSET(RayStatistics, areas),
         sizeof(Triangle), OFFSET(Triangle, v0), OFFSET(Triangle, primitive), OFFSET(Triangle, edge1),
         OFFSET(Triangle, reserved1), OFFSET(Triangle, edge2), OFFSET(Triangle, reserved2),
         sizeof(Triangle4), OFFSET(Triangle4, v0_x), OFFSET(Triangle4, v0_y), OFFSET(Triangle4, v0_z),

@@ -38,7 +38,7 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(Wide8Node, count), offsetof(Wide8Node, reserved),
         sizeof(Ray), offsetof(Ray, origin), offsetof(Ray, t_min), offsetof(Ray, direction), offsetof(Ray, t_max),
         sizeof(Hit), offsetof(Hit, t), offsetof(Hit, u), offsetof(Hit, v), offsetof(Hit, primitive), offsetof(Hit, instance),
-        sizeof(RayStatistics), offsetof(RayStatistics, volumes), offsetof(RayStatistics, primitives),
+        sizeof(RayStatistics), offsetof(RayStatistics, volumes), offsetof(RayStatistics, primitives), offsetof(RayStatistics, areas),
         sizeof(Triangle), offsetof(Triangle, v0), offsetof(Triangle, primitive), offsetof(Triangle, edge1),
         offsetof(Triangle, reserved1), offsetof(Triangle, edge2), offsetof(Triangle, reserved2),
         sizeof(Triangle4), offsetof(Triangle4, v0_x), offsetof(Triangle4, v0_y), offsetof(Triangle4, v0_z),
