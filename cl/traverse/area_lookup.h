@@ -35,13 +35,6 @@ INLINE bool is_in_area(global const LocalArea* area, float3 p) {
     return area_contains(&area->region, p);
 }
 
-/// Whether a ray from a point of the region follows the area. From the eye all do that go into the region.
-INLINE bool follows_area(global const InfluenceRecord* region, float3 p, float3 direction) {
-    const float3 eye = vload3(0, region->origin);
-    if (region->point != 0 && p.x == eye.x && p.y == eye.y && p.z == eye.z) return true;
-    return is_direction_affine(region, p, direction);
-}
-
 /// The area to search first for the ray from `p`: of those that hold p and that the ray follows the one that it leaves last, and
 /// of these the first. *exit is the distance up to which the ray is in it. BOXWOOD_NONE where there is none with *exit above
 /// t_min.
@@ -52,7 +45,7 @@ INLINE uint find_area(const Areas* a, float3 p, float3 direction, float t_min, f
     for (uint i = 0; i < leaf->count; ++i) {
         const uint candidate = a->items[leaf->first + i];
         global const LocalArea* area = &a->areas[candidate];
-        if (!is_in_area(area, p) || !follows_area(&area->region, p, direction)) continue;
+        if (!is_in_area(area, p) || !is_direction_affine(&area->region, p, direction)) continue;
         const float end = area_exit(&area->region, p, direction);
         if (end > *exit) {
             *exit = end;

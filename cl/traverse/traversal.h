@@ -63,7 +63,7 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 /// Searches the local tree of an area that holds the origin, then what is left with the global tree.
 ///
 /// Closest hits, exactly. While a ray is in a region, which is convex, it meets only triangles that have a point there, and the
-/// local tree has all of these and those so near that rounding could bring them in (host/hierarchy/local_trees.cpp). So every
+/// local tree has all of these and those so near that rounding could bring them in (cl/hierarchy/area_triangles.cl). So every
 /// triangle that the ray hits at t <= exit is in the local tree. The local search covers (t_min, exit], ends included as
 /// ray_triangle() has them: a hit there is the smallest t of all triangles, and the lowest of all at that t. Without one
 /// nothing is hit up to the exit, and the global tree is searched over (exit, t_max]. A local hit beyond the exit would be none

@@ -36,7 +36,7 @@ private:
 
     std::span<const LocalArea> areas_;
     AreaCell root_;
-    float reach_ = 0.0f; ///< Largest coordinate.
+    float slack_ = 0.0f; ///< Largest area_rounding.
 };
 
 } // namespace boxwood

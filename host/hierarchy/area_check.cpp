@@ -31,11 +31,11 @@ const char* wrong_with(const LocalArea& area) {
     const auto finite = [](std::initializer_list<float> values) { return all_finite(values); };
     if (region.point > 1) return "is neither a plane nor a point area";
     if (!all_finite(region.origin) || !is_orthonormal(region)) return "has axes that are not finite and orthonormal";
-    if (!finite({region.half_width, region.half_height, region.near, region.far, region.cos_tolerance, region.share}))
+    if (!finite({region.half_width, region.half_height, region.near, region.far, region.sin_tolerance, region.share}))
         return "is not finite";
     if (region.half_width <= 0.0f || region.half_height <= 0.0f) return "has no extent";
     if (region.near < 0.0f || region.far <= region.near) return "does not reach from near to far";
-    if (std::abs(region.cos_tolerance) > 1.0f) return "has a tolerance that is no cosine";
+    if (region.sin_tolerance < 0.0f || region.sin_tolerance > 1.0f) return "has a tolerance that is no sine";
     if (region.share < 0.0f || region.share > 1.0f) return "has a share out of range";
     if (!all_finite(area.box.min) || !all_finite(area.box.max) || !is_ordered(area.box))
         return "has a box that is not finite or inverted";

@@ -2,7 +2,6 @@
 #include "boxwood/area_index.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -31,6 +30,14 @@ constexpr std::size_t most_in_list = 8;
 std::string_view name(AreaIndexKind kind) { return word_of(kinds, kind); }
 AreaIndexKind to_area_index(std::string_view word) { return value_of(kinds, "area index", word); }
 
+float area_rounding(const LocalArea& area) {
+    const InfluenceRecord& region = area.region;
+    const float tangents = region.point != 0 ? region.half_width + region.half_height : 0.0f;
+    float reach = 0.0f;
+    for (int k = 0; k < 3; ++k) reach += area.box.max[k] - area.box.min[k];
+    return 0x1p-17f * (1.0f + tangents) * reach;
+}
+
 AreaCells::AreaCells(std::span<const LocalArea> areas) : areas_(areas) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     root_.box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
@@ -40,18 +47,16 @@ AreaCells::AreaCells(std::span<const LocalArea> areas) : areas_(areas) {
         for (int k = 0; k < 3; ++k) {
             root_.box.min[k] = std::min(root_.box.min[k], area.box.min[k]);
             root_.box.max[k] = std::max(root_.box.max[k], area.box.max[k]);
-            reach_ = std::max({reach_, std::abs(area.box.min[k]), std::abs(area.box.max[k])});
         }
+        slack_ = std::max(slack_, area_rounding(area));
     }
 }
 
 Aabb AreaCells::widened(const Aabb& box) const {
-    // Far above what the device's coordinates of a point in an area are wrong by, a few 2^-24 of the largest coordinate.
-    const float slack = reach_ * 0x1p-18f;
     Aabb wide = box;
     for (int k = 0; k < 3; ++k) {
-        wide.min[k] -= slack;
-        wide.max[k] += slack;
+        wide.min[k] -= slack_;
+        wide.max[k] += slack_;
     }
     return wide;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The builders by name, and how those from the top down split nodes.
-#include "boxwood/error.hpp"
 #include "hierarchy/forest.hpp"
 #include "runtime/words.hpp"
 
@@ -28,8 +27,12 @@ TopDownOptions topdown_options(Builder builder, std::uint32_t block) {
         options.bins = 2;
         options.split_plane_quality = 1.0f; // the longest axis only
         break;
-    default:
-        throw InputError("builder", std::string(name(builder)), "needs influence areas");
+    case Builder::pah: // of trees whose rays follow no area the surface area heuristic
+        options.measure = "projected_measure";
+        options.axes = "all_axes";
+        break;
+    case Builder::lbvh:
+        break;
     }
     return options;
 }

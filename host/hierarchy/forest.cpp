@@ -70,7 +70,8 @@ Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vec
 }
 
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
-                    const TopDownOptions& options, const std::string& stage) {
+                    const TopDownOptions& options, const std::string& stage, BufferView<const InfluenceRecord> areas,
+                    BufferView<const std::uint32_t> area_starts) {
     Buffer<std::uint32_t> starts = upload(device, offsets, "offsets of trees");
     Forest forest;
     {
@@ -80,7 +81,8 @@ Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vec
     {
         const Stage hierarchy = named(device, stage, "hierarchy");
         forest.topology =
-            topdown_within(device, boxes, {}, std::move(starts), forest.tree_bounds, {}, {}, options, false).topology;
+            topdown_within(device, boxes, {}, std::move(starts), forest.tree_bounds, areas, area_starts, options, false)
+                .topology;
     }
     const Stage volumes = named(device, stage, "volumes");
     forest.volumes = aabb_volumes(device, forest.topology, boxes);

@@ -27,12 +27,12 @@ struct Forest {
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
                     MortonBits morton, const std::string& stage = "");
 
-/// The same by splitting nodes from the roots down.
+/// The same by splitting nodes from the roots down; `areas` and `area_starts` as for topdown.
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
-                    const TopDownOptions& options, const std::string& stage = "");
+                    const TopDownOptions& options, const std::string& stage = "",
+                    BufferView<const InfluenceRecord> areas = {}, BufferView<const std::uint32_t> area_starts = {});
 
-/// How a builder other than lbvh splits nodes whose leaves test `block` primitives at once. Throws InputError for pah, which needs
-/// influence areas.
+/// How a builder other than lbvh splits nodes whose leaves test `block` primitives at once.
 TopDownOptions topdown_options(Builder builder, std::uint32_t block);
 
 /// The box of the primitives of each tree, one per range of `offsets`.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hierarchy/local_trees.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -13,21 +11,6 @@
 namespace boxwood {
 
 namespace {
-
-// A ray is taken to be in a region, and to leave it, with errors of some 2^-24 of the largest coordinate, and a triangle is hit
-// beside where it is by as much over the sine of the angle that it is met under. Triangles within this share of the largest coordinate
-// belong to the local tree too, so that none is missed at an angle of 2^-5 and above, or where the ray is not within it of the side.
-constexpr double slack = 0x1p-16;
-
-double reach_of(const Scene& flat, const InfluenceRecord& region) {
-    double largest = 0.0;
-    for (const glm::dvec3& corner : corners(region))
-        for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(corner[k]));
-    for (const Mesh& mesh : flat.meshes)
-        for (const glm::vec3& p : mesh.positions)
-            for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(static_cast<double>(p[k])));
-    return largest;
-}
 
 /// All triangles of the scene, then those of `local` again.
 void append_triangles(Device& device, const Scene& flat, const std::vector<std::uint32_t>& local, Geometry& geometry) {
@@ -44,21 +27,16 @@ void append_triangles(Device& device, const Scene& flat, const std::vector<std::
 
 } // namespace
 
-InfluenceRecord widened(const InfluenceRecord& region, double by) {
-    InfluenceRecord wide = region;
-    double back = by; // how far the origin moves against the direction
-    if (region.point == 0) {
-        wide.half_width = static_cast<float>(region.half_width + by);
-        wide.half_height = static_cast<float>(region.half_height + by);
-    } else {
-        // The sides move outwards by `by` when the eye moves back by that over the sine of half the field of view.
-        const auto far_enough = [by](double tangent) { return by * std::sqrt(1.0 + tangent * tangent) / tangent; };
-        back = std::max(far_enough(region.half_width), far_enough(region.half_height));
+LocalArea local_area(const InfluenceRecord& record) {
+    LocalArea area{record, {}, 0, 0};
+    if (area.region.point != 0) area.region.near = 0.0f;
+    area.box = enclosing_box(area.region);
+    const float slack = area_rounding(area);
+    for (int k = 0; k < 3; ++k) {
+        area.box.min[k] -= slack;
+        area.box.max[k] += slack;
     }
-    for (int k = 0; k < 3; ++k) wide.origin[k] = static_cast<float>(region.origin[k] - back * region.forward[k]);
-    wide.near = static_cast<float>(region.near + back - by);
-    wide.far = static_cast<float>(region.far + back + by);
-    return wide;
+    return area;
 }
 
 LocalTrees add_local_triangles(Device& device, const Scene& flat, const BuildOptions& options, Layout layout,
@@ -67,24 +45,29 @@ LocalTrees add_local_triangles(Device& device, const Scene& flat, const BuildOpt
     const std::vector<InfluenceRecord> records = influence_records(options.areas);
     const std::size_t count = geometry.triangle_count();
     LocalTrees trees;
+    std::vector<InfluenceRecord> rays;
     std::vector<std::uint32_t> names(count);
     std::iota(names.begin(), names.end(), 0u);
     for (const InfluenceRecord& record : records) {
-        LocalArea area{record, {}, 0, 0};
-        if (area.region.point != 0) area.region.near = 0.0f;
-        const InfluenceRecord wide = widened(area.region, slack * reach_of(flat, area.region));
-        area.box = enclosing_box(wide);
+        const LocalArea area = local_area(record);
         const std::vector<std::uint32_t> found =
-            download(device, area_triangles(device, geometry.positions, geometry.triangles, wide));
+            download(device, area_triangles(device, geometry.positions, geometry.triangles, area.region));
         trees.reports.push_back({found.size()});
         if (found.empty()) continue;
         names.insert(names.end(), found.begin(), found.end());
         trees.areas.push_back(area);
+        rays.push_back(record);
+        rays.back().share = 1.0f; // of the rays in its tree
         trees.sizes.push_back(static_cast<std::uint32_t>(found.size()));
         check_capacity(device, layout, Bounds::aabb, names.size(), flat.vertex_count(), 0);
     }
     if (trees.areas.empty()) return trees;
     append_triangles(device, flat, {names.begin() + static_cast<std::ptrdiff_t>(count), names.end()}, geometry);
+    // The rays of the global tree follow no area.
+    std::vector<std::uint32_t> starts(rays.size() + 2, 0u);
+    std::iota(starts.begin() + 1, starts.end(), 0u);
+    trees.rays = upload(device, rays, "rays of local trees");
+    trees.ray_starts = upload(device, starts, "rays of local trees");
     trees.names = upload(device, names, "names of triangles");
     return trees;
 }

@@ -15,6 +15,8 @@ struct LocalTrees {
     std::vector<LocalArea> areas;     ///< Those that hold triangles, `root` not filled.
     std::vector<AreaReport> reports;  ///< Of all areas.
     std::vector<std::uint32_t> sizes; ///< Triangles by area of `areas`.
+    Buffer<InfluenceRecord> rays;     ///< What follows the areas of `areas`, for builders.
+    Buffer<std::uint32_t> ray_starts; ///< By tree, the global one first: its part of `rays`.
     Buffer<std::uint32_t> names;      ///< Of each triangle of the scene and of the local trees: its index in the scene.
 };
 
@@ -23,7 +25,7 @@ struct LocalTrees {
 LocalTrees add_local_triangles(Device& device, const Scene& flat, const BuildOptions& options, Layout layout,
                                Geometry& geometry);
 
-/// The region with every point that is within `by` of it.
-InfluenceRecord widened(const InfluenceRecord& region, double by);
+/// An area as traversal needs it, but for the root of its tree.
+LocalArea local_area(const InfluenceRecord& record);
 
 } // namespace boxwood

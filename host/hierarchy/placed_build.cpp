@@ -34,9 +34,11 @@ Buffer<Aabb> triangle_boxes(Device& device, const Geometry& geometry) {
 
 /// Leaves of wide8 test four triangles at once; instances are never tested together.
 Forest forest_over(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
-                   const BuildOptions& options, std::uint32_t block, const std::string& stage = "") {
+                   const BuildOptions& options, const LocalTrees& local, std::uint32_t block,
+                   const std::string& stage = "") {
     if (options.builder == Builder::lbvh) return build_forest(device, boxes, offsets, options.morton, stage);
-    return build_forest(device, boxes, offsets, topdown_options(options.builder, block), stage);
+    return build_forest(device, boxes, offsets, topdown_options(options.builder, block), stage, local.rays,
+                        local.ray_starts);
 }
 
 /// Lays the forest's nodes out for traversal and keeps them in `tree`.
@@ -124,7 +126,8 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     if (!options.areas.empty()) add_areas(device, placed, options, parts, tree);
     {
         const Buffer<Aabb> boxes = triangle_boxes(device, parts.geometry);
-        parts.bottom = forest_over(device, boxes, parts.offsets, options, tree.layout == Layout::wide8 ? 4 : 1);
+        parts.bottom =
+            forest_over(device, boxes, parts.offsets, options, parts.local, tree.layout == Layout::wide8 ? 4 : 1);
     }
     lay_out(device, placed, options, parts, tree);
     device.finish();
@@ -148,6 +151,8 @@ Tree empty_tree(const BuildOptions& options) {
     if (!options.areas.empty() && (oriented || options.levels == Levels::two))
         throw InputError("areas", oriented ? std::string(name(tree.bounds)) : "levels two",
                          "influence areas need one level of axis-aligned boxes");
+    if (options.areas.empty() && options.builder == Builder::pah)
+        throw InputError("builder", "pah", "needs influence areas");
     tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
     return tree;
 }
@@ -200,7 +205,7 @@ void build_top_level(Device& device, const Scene& scene, const BuildOptions& opt
     const Buffer<Aabb> boxes = make_scratch<Aabb>(device, count, "boxes of instances");
     launch(device, {"bounds/primitive_bounds.cl", "instance_bounds"}, "instance boxes", count, tree.instances,
            parts.bottom.tree_bounds, boxes, count);
-    parts.top = forest_over(device, boxes, {0, count}, options, 1, "top_level");
+    parts.top = forest_over(device, boxes, {0, count}, options, {}, 1, "top_level");
     if (tree.bounds != Bounds::aabb)
         parts.top.boxes = obb_volumes(device, parts.top.topology, parts.top.volumes, tree.instances, parts.mesh_boxes,
                                       options.bounds);

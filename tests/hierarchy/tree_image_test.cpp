@@ -115,7 +115,7 @@ TEST_CASE("influence areas with their trees and an index are valid, and what is 
         CHECK(area([](TreeImage& t) { t.areas[0].region.up[2] = 0.25f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].region.far = 0.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].region.half_width = infinity; }) == "areas[0]");
-        CHECK(area([](TreeImage& t) { t.areas[0].region.cos_tolerance = 2.0f; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.sin_tolerance = 2.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].region.share = -1.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].box.min[0] = 3.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].reserved = 1; }) == "areas[0]");
