@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "boxwood/error.hpp"
+#include "boxwood/influence.hpp"
 #include "boxwood/requirements.hpp"
 #include "cli/areas.hpp"
 #include "cli/input.hpp"
@@ -24,6 +25,7 @@ struct Arguments {
     bool json = false;
     std::filesystem::path boxes;
     DepthRange depths{0, 4};
+    std::filesystem::path areas;
     BuildChoice choice;
 };
 
@@ -41,19 +43,22 @@ DepthRange to_depths(const std::string& text) {
 }
 
 /// The tree of a .bxw file as it is stored, that of a scene built; the latter alone needs a device.
-void export_boxes(const Arguments& arguments, const Input& input) {
+void export_boxes(const Arguments& arguments, const Input& input, std::span<const InfluenceRecord> areas) {
     std::optional<TreeImage> built;
     if (!input.tree || arguments.choice.given()) {
         Device device = open_device(arguments.common);
         built = download(device, prepare(device, input, arguments.choice).tree);
     }
-    const Scene lines = box_lines(built ? *built : *input.tree, input.scene, arguments.depths);
-    save_glb_lines(arguments.boxes, lines);
+    Scene lines = box_lines(built ? *built : *input.tree, input.scene, arguments.depths);
     std::size_t boxes = 0;
     for (const Mesh& mesh : lines.meshes) boxes += mesh.positions.size() / 8;
+    add_area_lines(areas, lines);
+    save_glb_lines(arguments.boxes, lines);
     if (!arguments.common.quiet && !arguments.json)
         std::cout << "  boxes       " << grouped(boxes) << " at depths " << arguments.depths.first << " to "
-                  << arguments.depths.last << " in " << arguments.boxes.string() << '\n';
+                  << arguments.depths.last
+                  << (areas.empty() ? "" : ", and " + grouped(areas.size()) + (areas.size() == 1 ? " area" : " areas"))
+                  << " in " << arguments.boxes.string() << '\n';
 }
 
 Json cameras_report(const Scene& scene) {
@@ -178,6 +183,8 @@ void run(const Arguments& arguments) {
     check_output(arguments.boxes, ".glb");
     if (arguments.boxes.empty() && arguments.choice.given())
         throw UsageError("build options are of use with --boxes only");
+    std::vector<InfluenceRecord> areas;
+    if (!arguments.areas.empty()) areas = influence_records(load_areas(arguments.areas), arguments.areas.string());
     const Input input = load_input(arguments.file, arguments.common.quiet);
     if (arguments.json) {
         Json report = {{"boxwood", BOXWOOD_VERSION}, {"scene", scene_report(input)}};
@@ -193,7 +200,7 @@ void run(const Arguments& arguments) {
         if (input.tree) print_tree(*input.tree);
         print_reasons(input);
     }
-    if (!arguments.boxes.empty()) export_boxes(arguments, input);
+    if (!arguments.boxes.empty()) export_boxes(arguments, input, areas);
 }
 
 } // namespace
@@ -209,6 +216,8 @@ Command add_info(CLI::App& tool) {
            "--depth", [arguments](const std::string& text) { arguments->depths = to_depths(text); },
            "Depths of the nodes for --boxes, the roots having 0 (default: 0-4)")
         ->type_name("A-B")
+        ->needs(boxes);
+    app->add_option("--areas", arguments->areas, "Influence areas (JSON) whose regions --boxes writes, too")
         ->needs(boxes);
     add_build_options(*app, arguments->choice);
     add_common(*app, arguments->common);

@@ -7,6 +7,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/scene.hpp"
+#include "hierarchy/area_fault.hpp"
 
 namespace boxwood {
 
@@ -24,8 +25,9 @@ bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite
 /// In [low, high], which NaN is not.
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-/// What is wrong with the area, or nothing.
-std::string fault_of(const InfluenceArea& area) {
+} // namespace
+
+std::string area_fault(const InfluenceArea& area) {
     const bool point = area.kind == AreaKind::point;
     if (!is_finite(area.origin) || largest_component(area.origin) > largest)
         return "the origin is not within 2^60 of 0";
@@ -45,6 +47,8 @@ std::string fault_of(const InfluenceArea& area) {
     if (area.share && !within(*area.share, 0, 1)) return "the share is not in 0 to 1";
     return {};
 }
+
+namespace {
 
 InfluenceRecord record_of(const InfluenceArea& area, double share) {
     const glm::dvec3 forward = normalised(area.direction);
@@ -87,7 +91,7 @@ Shares shares_of(std::span<const InfluenceArea> areas) {
 void validate(std::span<const InfluenceArea> areas, const std::string& source) {
     if (areas.size() > most_areas) throw CapacityError("influence areas", areas.size(), most_areas);
     for (std::size_t i = 0; i < areas.size(); ++i)
-        if (const std::string fault = fault_of(areas[i]); !fault.empty())
+        if (const std::string fault = area_fault(areas[i]); !fault.empty())
             throw InputError(source, "area " + std::to_string(i), fault);
     // Decimal shares that add up to 1 need not do so as they are rounded.
     const double rounding = static_cast<double>(areas.size()) * std::numeric_limits<double>::epsilon();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "hierarchy/tree_boxes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "boxwood/influence.hpp"
 #include "hierarchy/tree_walker.hpp"
 
 namespace boxwood {
@@ -138,6 +140,17 @@ Scene box_lines(const TreeImage& tree, const Scene& scene, DepthRange depths) {
     if (!first.positions.empty()) add_mesh(std::move(first), result);
     if (two) add_bottom_lines(tree, scene, depths, result);
     return result;
+}
+
+void add_area_lines(std::span<const InfluenceRecord> areas, Scene& lines) {
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        const std::array<glm::dvec3, 8> exact = corners(areas[i]);
+        BoxCorners ends;
+        std::copy(exact.begin(), exact.end(), ends.begin());
+        Mesh mesh{"area " + std::to_string(i), {}, {}};
+        add_box(ends, mesh);
+        add_mesh(std::move(mesh), lines);
+    }
 }
 
 } // namespace boxwood

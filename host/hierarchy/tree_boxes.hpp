@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "boxwood/scene.hpp"
 #include "boxwood/tree_image.hpp"
+#include "shared/influence.h"
 
 namespace boxwood {
 
@@ -40,5 +42,8 @@ BoxCorners root_corners(const Wide8Node& root);
 /// mesh, under the transform of each of its instances; depths count from each tree's own root. Without a box at these
 /// depths a mesh is left out. Cameras are kept. O(nodes above and at those depths).
 Scene box_lines(const TreeImage& tree, const Scene& scene, DepthRange depths);
+
+/// Adds the regions of influence areas to lines, as boxes are: a mesh "area I" each.
+void add_area_lines(std::span<const InfluenceRecord> areas, Scene& lines);
 
 } // namespace boxwood

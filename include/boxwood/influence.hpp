@@ -15,6 +15,8 @@
 
 namespace boxwood {
 
+struct Scene;
+
 enum class AreaKind { plane, point };
 
 /// A region of a scene where rays are parallel (plane) or come from one point (point): thesis chapter 3, paper section 4. World
@@ -51,6 +53,20 @@ std::vector<InfluenceRecord> influence_records(std::span<const InfluenceArea> ar
 /// "length"} or {"kind": "point", "eye", "direction", "fov_x_degrees", "fov_y_degrees", "near", "far"}, both with optional
 /// "tolerance_degrees" and "share"; other keys are not read. Throws InputError naming the file and the index of the area.
 std::vector<InfluenceArea> load_areas(const std::filesystem::path& file);
+
+/// Most areas that areas_from_lights makes.
+inline constexpr std::size_t most_light_areas = 64;
+
+/// Areas that the shadow rays towards a scene's lights follow, backwards; world space, in the order of the lights, then of the
+/// instances, up to most_light_areas.
+/// - A directional light: a plane area whose box holds the scene.
+/// - A point light: six point areas, the faces of a cube about it, as far as the scene and its range; those that miss the box of
+///   the scene are left out. A spot light: one around its cone, or the faces that the cone reaches where it is wider than 60
+///   degrees to each side.
+/// - A lamp, the emitting triangles of an instance where they lie in one plane to within 2^-10 of their size: a plane area over their
+///   bounding rectangle for each side that emits, as far as the scene, whose tolerance (0.5 to 45 degrees) is the largest angle that
+///   a ray has from its far end to the rectangle. A texture of emission is not looked at.
+std::vector<InfluenceArea> areas_from_lights(const Scene& scene);
 
 /// The region of an area (thesis 5.3): closed, in double precision, by the record's floats as they are. A box is closed too.
 bool contains(const InfluenceRecord& area, const glm::dvec3& point);

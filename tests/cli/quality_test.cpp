@@ -158,7 +158,17 @@ TEST_CASE("info: the boxes of a tree as lines, from a scene and from its .bxw fi
         CHECK(tool.run("info forest.glb " + wrong).code == 2);
     }
     CHECK(tool.run("info forest.bxw --boxes x.glb --levels one").code == 2);
-    CHECK(tool.files() == Names{"boxes.glb", "forest.bxw", "forest.glb"});
+
+    tool.write("areas.json", R"([{"kind": "plane", "point": [0, 9, 0], "direction": [0, -1, 0], "half_width": 5,
+                                 "half_height": 5, "length": 9}])");
+    CHECK(tool.succeed("info forest.bxw --boxes boxes.glb --areas areas.json").out.find(", and 1 area ") !=
+          std::string::npos);
+    const Json meshes = gltf_json(tool, "boxes.glb")["meshes"];
+    CHECK(meshes[meshes.size() - 1]["name"] == "area 0");
+    CHECK(tool.run("info forest.bxw --areas areas.json").code == 2);
+    tool.write("areas.json", "[{}]");
+    CHECK(tool.run("info forest.bxw --boxes x.glb --areas areas.json").code == 3);
+    CHECK(tool.files() == Names{"areas.json", "boxes.glb", "forest.bxw", "forest.glb"});
 }
 
 TEST_SUITE_END();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "boxwood/build.hpp"
+#include "boxwood/influence.hpp"
 #include "hierarchy/forest_scene.hpp"
 #include "support.hpp"
 
@@ -139,6 +140,32 @@ TEST_CASE("boxes as lines: an oriented box has the corners of its parallelepiped
         CHECK(lines.positions[i] == glm::vec3(x, y - z, z));
     }
     CHECK(bounds_of(box_lines(tree, scene, {0, 0}).meshes.at(0)) == std::vector<Bounds6>{{-9, -9, -9, 3, 7, 4}});
+}
+
+TEST_CASE("regions of influence areas as lines: twelve edges each") {
+    InfluenceArea plane, point;
+    plane.half_width = 2;
+    plane.far = 3;
+    point.kind = AreaKind::point;
+    point.near = 1;
+    point.far = 4;
+    Scene lines;
+    add_area_lines(influence_records(std::vector<InfluenceArea>{plane, point}), lines);
+    REQUIRE(lines.meshes.size() == 2);
+    CHECK(lines.instances.size() == 2);
+    CHECK(lines.meshes[1].name == "area 1");
+    CHECK(bounds_of(lines.meshes[0]) == std::vector<Bounds6>{{-2, -1, -3, 2, 1, 0}});
+    CHECK(bounds_of(lines.meshes[1]) == std::vector<Bounds6>{{-4, -4, -4, 4, 4, -1}});
+    // Each edge joins corners that share two of the six sides.
+    for (const Mesh& mesh : lines.meshes) {
+        std::vector<std::uint32_t> ends;
+        for (const glm::uvec3& t : mesh.triangles) ends.insert(ends.end(), {t.x, t.y, t.z});
+        REQUIRE(ends.size() == 24);
+        for (std::size_t i = 0; i < 24; i += 2) {
+            const glm::vec3 a = mesh.positions[ends[i]], b = mesh.positions[ends[i + 1]];
+            CHECK(((a.x * b.x > 0) + (a.y * b.y > 0) + (a.z == b.z)) == 2);
+        }
+    }
 }
 
 TEST_SUITE_END();
