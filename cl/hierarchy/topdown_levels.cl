@@ -185,20 +185,24 @@ void topdown_choose(global LargeNode* nodes, global const float8* node_bins, glo
     const Thresholds limits = *thresholds;
     const float8 bounds = vload8(0, nodes[i].bounds);
     const Question question = {bounds, node.count, node.level, slices_of(node.count), chance_of(&rays, bounds, false)};
-    if (is_leaf(&rays, &limits, &question)) {
+    Plane plane;
+    no_plane(&plane);
+    uint mark = MARK_LEAF;
+    if (!is_leaf(&rays, &limits, &question)) {
+        Bins bins;
+        for (uint j = 0; j < SLOTS; ++j) {
+            bins.bounds[j] = node_bins[i * (size_t)SLOTS + j];
+            bins.counts[j] = node_counts[i * (size_t)SLOTS + j];
+        }
+        mark = choose_plane(&rays, &limits, &bins, &question, &plane);
+    }
+    if (plane.axis == NO_AXIS) {
         nodes[i].flags = node.flags | NODE_LEAF;
         kinds[i] = 1;
         chunks[i] = 0;
         return;
     }
-    Bins bins;
-    for (uint j = 0; j < SLOTS; ++j) {
-        bins.bounds[j] = node_bins[i * (size_t)SLOTS + j];
-        bins.counts[j] = node_counts[i * (size_t)SLOTS + j];
-    }
-    Plane plane;
-    const uint mark = choose_plane(&rays, &limits, &bins, &question, &plane);
-    const uint left_count = plane.axis == NO_AXIS ? node.count / 2 : plane.left_count;
+    const uint left_count = plane.left_count;
     const uint right_count = node.count - left_count;
     nodes[i].left_count = left_count;
     nodes[i].cut = 4 * plane.slice + plane.axis;
@@ -211,7 +215,6 @@ void topdown_choose(global LargeNode* nodes, global const float8* node_bins, glo
 /// Where in its node a chunk's first primitive on the left goes.
 INLINE uint lefts_before(global const LargeNode* node, global const uint* counts, const Chunk* chunk) {
     const uint axis = node->cut & 3, slice = node->cut >> 2;
-    if (axis == NO_AXIS) return min(chunk->begin - node->first, node->left_count);
     uint before = 0;
     for (uint s = 0; s < slice; ++s) before += counts[axis * BINS + s];
     return before;
@@ -232,7 +235,6 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     Grid grid;
     grid_of(&grid, node);
     const int4 limit = plane_at(node->cut & 3, node->cut >> 2);
-    const bool halved = (node->cut & 3) == NO_AXIS;
     const uint middle = node->first + node->left_count;
     const uint lefts = lefts_before(node, chunk_counts + i * (size_t)SLOTS, &chunk);
     uint target[2] = {node->first + lefts, middle + (chunk.begin - node->first - lefts)};
@@ -240,8 +242,7 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     for (uint p = chunk.begin; p < chunk.end; ++p) {
         const float8 record = records[p];
         const float4 centre = centre_of(record, own_centres);
-        const bool right = halved ? p >= middle : (bool)any(place_in(&grid, centre) >= limit);
-        const uint side = right ? 1 : 0;
+        const uint side = any(place_in(&grid, centre) >= limit) ? 1 : 0;
         scattered[target[side]++] = record;
         bounds[side] = LESSER(record, bounds[side]);
         centres[side] = LESSER(point_bounds(centre), centres[side]);

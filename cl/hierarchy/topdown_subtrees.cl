@@ -65,8 +65,7 @@ INLINE void split_node(const Work* w, const Node* node, Node* children) {
     Grid grid;
     const Question question = {node->bounds, node->count, node->level, slices_of(node->count),
                                node->flags & NODE_LEAF ? 0.0f : chance_of(w->rays, node->bounds, false)};
-    const bool leaf = (node->flags & NODE_LEAF) || is_leaf(w->rays, w->thresholds, &question);
-    if (!leaf) {
+    if (!(node->flags & NODE_LEAF) && !is_leaf(w->rays, w->thresholds, &question)) {
         global const float8* records = w->records[node->flags & NODE_OTHER ? 1 : 0];
         Bins bins;
         clear_bins(&bins, question.slices);
@@ -77,7 +76,8 @@ INLINE void split_node(const Work* w, const Node* node, Node* children) {
         }
         mark = choose_plane(w->rays, w->thresholds, &bins, &question, &plane);
     }
-    const uint left_count = plane.axis == NO_AXIS ? node->count / 2 : plane.left_count;
+    const bool leaf = plane.axis == NO_AXIS; // also when no plane parts it
+    const uint left_count = leaf ? node->count / 2 : plane.left_count;
     const uint kept = (node->flags & NODE_OTHER) | (leaf ? NODE_LEAF : 0);
     children[0].first = node->first;
     children[0].count = left_count;
@@ -86,13 +86,8 @@ INLINE void split_node(const Work* w, const Node* node, Node* children) {
     children[1].count = node->count - left_count;
     children[1].flags = kept;
     children[0].level = children[1].level = node->level + 1;
-    write_node(w->nodes, node->first, node->count, node->flags, left_count, mark);
-    if (plane.axis != NO_AXIS) {
-        part(w, node, &grid, &plane, children);
-    } else if (!leaf) {
-        measure_node(w, children);
-        measure_node(w, children + 1);
-    }
+    write_node(w->nodes, node->first, node->count, node->flags, left_count, leaf ? MARK_LEAF : mark);
+    if (!leaf) part(w, node, &grid, &plane, children);
 }
 
 INLINE void build_subtree(const Work* w, Node root) {

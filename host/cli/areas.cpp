@@ -58,7 +58,7 @@ AreaMemory area_memory(const TreeImage& tree) {
 }
 
 void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
-    if (prepared.options.areas.empty()) return;
+    if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return;
     const AreaMemory memory = area_memory(tree);
     Json& areas = report["areas"];
     areas["kept"] = tree.areas.size();
@@ -74,7 +74,7 @@ void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
 }
 
 std::string area_summary(const TreeImage& tree, const Prepared& prepared) {
-    if (prepared.options.areas.empty()) return "";
+    if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return "";
     const AreaMemory memory = area_memory(tree);
     std::ostringstream out;
     out << grouped(tree.areas.size()) << " of " << grouped(prepared.options.areas.size())

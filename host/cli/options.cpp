@@ -60,7 +60,8 @@ void BuildChoice::check() const {
                          " out");
     if (!has_areas && options.area_index != AreaIndexKind::automatic)
         throw UsageError("--area-index is of use with --areas only");
-    if (!has_areas && options.builder == Builder::pah) throw UsageError("--builder pah needs --areas");
+    if (!has_areas && (options.builder == Builder::pah || options.builder == Builder::blend))
+        throw UsageError("--builder " + std::string(name(options.builder)) + " needs --areas");
     if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
         throw UsageError("--extents corners is of use with --bounds obb-moments only");
     if (options.bounds.measure == Measure::area && options.bounds.kind == Bounds::aabb)
@@ -104,8 +105,10 @@ CLI::Option* add_builder(CLI::App& command, BuildOptions& options) {
         .add_option_function<std::string>(
             "--builder", [&](const std::string& word) { options.builder = to_builder(word); },
             "Morton codes (lbvh, default): a fast build; surface area heuristic (sah): fast rays; halves in space "
-            "(midpoint); projected area heuristic (pah): fast rays of influence areas")
-        ->check(CLI::IsMember({"lbvh", "sah", "midpoint", "pah"}));
+            "(midpoint); projected area heuristic (pah): fast rays of influence areas; both by the areas' shares of "
+            "the "
+            "rays (blend): one tree for all")
+        ->check(CLI::IsMember({"lbvh", "sah", "midpoint", "pah", "blend"}));
 }
 
 CLI::Option* add_area_index(CLI::App& command, BuildOptions& options) {

@@ -7,8 +7,11 @@ namespace boxwood {
 
 namespace {
 
-constexpr Words<Builder, 4> builders{
-    {{"lbvh", Builder::lbvh}, {"sah", Builder::sah}, {"midpoint", Builder::midpoint}, {"pah", Builder::pah}}};
+constexpr Words<Builder, 5> builders{{{"lbvh", Builder::lbvh},
+                                      {"sah", Builder::sah},
+                                      {"midpoint", Builder::midpoint},
+                                      {"pah", Builder::pah},
+                                      {"blend", Builder::blend}}};
 
 } // namespace
 
@@ -29,6 +32,11 @@ TopDownOptions topdown_options(Builder builder, std::uint32_t block) {
         break;
     case Builder::pah: // of trees whose rays follow no area the surface area heuristic
         options.measure = "projected_measure";
+        options.axes = "all_axes";
+        break;
+    case Builder::blend:
+        options.measure = "expected_measure";
+        options.cost = "overlap_cost";
         options.axes = "all_axes";
         break;
     case Builder::lbvh:

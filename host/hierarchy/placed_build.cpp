@@ -113,6 +113,14 @@ void add_areas(Device& device, const Scene& flat, const BuildOptions& options, B
     tree.area_index = index.kind;
 }
 
+/// Tells the builder of the only tree about the rays of the areas.
+void share_areas(Device& device, const BuildOptions& options, BuildParts& parts) {
+    const std::vector<InfluenceRecord> rays = influence_records(options.areas);
+    parts.local.rays = upload(device, rays, "rays of areas");
+    parts.local.ray_starts =
+        upload(device, std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(rays.size())}, "rays of areas");
+}
+
 /// `placed` is the scene itself for two levels, flattened for one.
 Tree build_placed(Device& device, const Scene& placed, const BuildOptions& options, bool two_levels,
                   BuildParts& parts) {
@@ -123,7 +131,10 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     parts.geometry = upload(device, placed);
     parts.uploaded = std::chrono::steady_clock::now();
     parts.offsets = triangle_offsets(placed);
-    if (!options.areas.empty()) add_areas(device, placed, options, parts, tree);
+    if (options.builder == Builder::blend)
+        share_areas(device, options, parts);
+    else if (!options.areas.empty())
+        add_areas(device, placed, options, parts, tree);
     {
         const Buffer<Aabb> boxes = triangle_boxes(device, parts.geometry);
         parts.bottom =
@@ -151,8 +162,8 @@ Tree empty_tree(const BuildOptions& options) {
     if (!options.areas.empty() && (oriented || options.levels == Levels::two))
         throw InputError("areas", oriented ? std::string(name(tree.bounds)) : "levels two",
                          "influence areas need one level of axis-aligned boxes");
-    if (options.areas.empty() && options.builder == Builder::pah)
-        throw InputError("builder", "pah", "needs influence areas");
+    if (options.areas.empty() && (options.builder == Builder::pah || options.builder == Builder::blend))
+        throw InputError("builder", std::string(name(options.builder)), "needs influence areas");
     tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
     return tree;
 }

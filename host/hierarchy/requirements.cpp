@@ -12,7 +12,7 @@ Requirements requirements(const Scene& scene, const BuildOptions& options) {
         options.levels == Levels::two || (options.levels == Levels::automatic && shared && options.areas.empty());
     needs.instance_lookup = !needs.two_levels && scene.instances.size() > 1;
     needs.oriented_boxes = options.bounds.kind != Bounds::aabb;
-    needs.influence_areas = !options.areas.empty();
+    needs.influence_areas = !options.areas.empty() && options.builder != Builder::blend;
     return needs;
 }
 

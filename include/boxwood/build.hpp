@@ -20,6 +20,7 @@ enum class Builder {
     sah,      ///< Top-down by the surface area heuristic: trees that are faster to traverse.
     midpoint, ///< Top-down, halving the longest axis in space.
     pah,      ///< Top-down by the projected area heuristic: for rays that follow influence areas.
+    blend,    ///< Top-down by both, as many rays follow the areas as their shares say: one tree, no local ones.
 };
 
 /// The words used in options, reports and on the command line. to_builder throws InputError listing them.
@@ -33,8 +34,8 @@ struct BuildOptions {
     Builder builder = Builder::lbvh;
     MortonBits morton = MortonBits::bits30; ///< Of lbvh.
     BoundsOptions bounds = {};              ///< Oriented boxes need the binary layout.
-    /// Each that holds a triangle gets a tree of its own, which rays that follow it search first. They need one level of
-    /// axis-aligned boxes.
+    /// Each that holds a triangle gets a tree of its own, which rays that follow it search first; for blend they tell the only
+    /// tree what rays will come. They need one level of axis-aligned boxes.
     std::vector<InfluenceArea> areas = {};
     AreaIndexKind area_index = AreaIndexKind::automatic;
     /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.

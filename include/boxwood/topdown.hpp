@@ -38,7 +38,7 @@ struct TopDownOptions {
     float excellent_children = 0.0f;  ///< Below which no more axes are tried; 0: all good axes are. The paper's: 0.9.
 };
 
-/// A topology with the leaves that the strategy chose.
+/// A topology with the leaves that the strategy chose; a node whose primitives no plane parts is one too.
 struct TopDownTree {
     Topology topology; ///< Down to single primitives: below a chosen leaf ranges are halved.
     /// n, by inner node: 1 when the whole subtree is one leaf, or part of one; else 0.

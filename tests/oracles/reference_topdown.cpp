@@ -108,7 +108,7 @@ struct Recursion {
     std::optional<Cut> choose(const List& list, std::uint32_t level) {
         const Aabb box = box_of(list);
         std::optional<Cut> best;
-        ++result.splits;
+        std::uint64_t tried = 0;
         bool fallback = level >= options.max_non_fallback_levels;
         if (!fallback) {
             const float chance = rules.measure(root, box);
@@ -121,19 +121,24 @@ struct Recursion {
                     break;
                 }
                 try_axis(list, axis, false, best);
-                ++result.axes_tried;
+                ++tried;
             }
             if (!best) fallback = true;
         }
-        if (!fallback) return best;
-        ++result.fallbacks;
-        std::optional<Cut> other;
-        for (const int axis : by_quality(rules.fallback_axes(box, level))) {
-            if (other) break;
-            try_axis(list, axis, true, other);
-            ++result.axes_tried;
+        if (fallback) {
+            std::optional<Cut> other;
+            for (const int axis : by_quality(rules.fallback_axes(box, level))) {
+                if (other) break;
+                try_axis(list, axis, true, other);
+                ++tried;
+            }
+            if (other) best = other;
         }
-        return other ? other : best;
+        if (!best) return best; // no plane parts them
+        ++result.splits;
+        result.axes_tried += tried;
+        result.fallbacks += fallback ? 1 : 0;
+        return best;
     }
 
     bool stops(const List& list, std::uint32_t level) const {
@@ -155,10 +160,10 @@ struct Recursion {
             return;
         }
         const std::uint32_t index = is_left ? first + size - 1 : first;
-        const bool leaf = in_leaf || stops(list, level);
         std::optional<Cut> cut;
-        if (!leaf) cut = choose(list, level);
-        if (!cut) {
+        if (!in_leaf && !stops(list, level)) cut = choose(list, level);
+        const bool leaf = !cut;
+        if (leaf) {
             cut.emplace();
             cut->left.assign(list.begin(), list.begin() + size / 2);
             cut->right.assign(list.begin() + size / 2, list.end());
