@@ -8,6 +8,7 @@
 
 #include "boxwood/error.hpp"
 #include "hierarchy/obb_kinds.hpp"
+#include "hierarchy/topdown.hpp"
 #include "shared/aabb.h"
 #include "shared/instance.h"
 #include "shared/obb.h"
@@ -45,7 +46,7 @@ void check_each(const Device& device, std::initializer_list<Need> needs) {
 } // namespace
 
 void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
-                    std::uint64_t instances) {
+                    std::uint64_t instances, Builder builder) {
     for (const std::uint64_t primitives : {triangles, instances})
         if (primitives > most_primitives)
             throw CapacityError("primitives in one level of a tree", primitives, most_primitives);
@@ -65,9 +66,11 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     const std::uint64_t costs = 32 * triangles, blocks = sizeof(Triangle4) * (triangles / 4);
     const std::uint64_t placed = sizeof(InstanceRecord) * instances;
     const std::uint64_t top = 2 * (oriented ? sizeof(Obb) : sizeof(Aabb)) * instances;
+    const TopDownBytes splits = builder == Builder::lbvh ? TopDownBytes{} : topdown_bytes(device, triangles);
     check_each(device, {{"vertex positions", positions},
                         {"triangle indices", indices},
                         {"boxes of nodes", volumes},
+                        {"records of primitives", splits.largest},
                         {"oriented boxes of nodes", boxes},
                         {"sorted points", sorted},
                         {"moments of nodes", moments},
@@ -78,11 +81,12 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     else
         check_each(device, {{"collapse costs", costs}, {"triangle blocks", blocks}});
 
-    // What is held at once at the least: while the oriented boxes are fitted to the sorted vertices, or while the layout
+    // What is held at once at the least: while nodes are split, while the oriented boxes are fitted to the sorted vertices, or while the layout
     // is written from topology and volumes.
     const std::uint64_t result = layout == Layout::binary ? binary_nodes + records : blocks;
     const std::uint64_t least =
-        positions + indices + volumes + boxes + topology + placed + std::max(sorted + moments, result);
+        positions + indices + topology + placed +
+        std::max(sizeof(Aabb) * triangles + splits.all, volumes + boxes + std::max(sorted + moments, result));
     const std::uint64_t available =
         device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
     if (least > available)

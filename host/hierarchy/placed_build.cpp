@@ -127,7 +127,7 @@ Tree build_placed(Device& device, const Scene& placed, const BuildOptions& optio
     Tree tree = empty_tree(options);
     tree.levels = two_levels ? Levels::two : Levels::one;
     check_capacity(device, tree.layout, tree.bounds, placed.triangle_count(), placed.vertex_count(),
-                   two_levels ? placed.instances.size() : 0);
+                   two_levels ? placed.instances.size() : 0, options.builder);
     parts.geometry = upload(device, placed);
     parts.uploaded = std::chrono::steady_clock::now();
     parts.offsets = triangle_offsets(placed);
@@ -172,7 +172,7 @@ Tree build_tree(Device& device, const Scene& scene, const BuildOptions& options,
     const bool two_levels = requirements(scene, options).two_levels;
     if (two_levels || is_flat(scene)) return build_placed(device, scene, options, two_levels, parts);
     const Tree tree = empty_tree(options);
-    check_capacity(device, tree.layout, tree.bounds, scene.instanced_triangle_count(), 0, 0);
+    check_capacity(device, tree.layout, tree.bounds, scene.instanced_triangle_count(), 0, 0, options.builder);
     return build_placed(device, flatten(scene), options, false, parts);
 }
 

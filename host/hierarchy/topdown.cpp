@@ -18,7 +18,7 @@ namespace {
 /// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
 /// work-items there are, and for the caches of a CPU.
 std::uint32_t large_above(const Device& device, std::uint64_t primitives) {
-    return std::clamp(cut(device, std::max<std::uint64_t>(primitives, 1)).length, 64u, 4096u);
+    return std::clamp(cut(device, std::max<std::uint64_t>(primitives, 1)).length, 64u, 16384u);
 }
 
 Thresholds thresholds_of(const TopDownOptions& options) {
@@ -234,8 +234,9 @@ void check(const TopDownOptions& options) {
         require(is_name(*text), option, "is not the name of a function");
 }
 
-TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives, std::uint32_t bins) {
+TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives) {
     const LevelSize most = largest_level(primitives, large_above(device, primitives));
+    const std::uint64_t bins = TopDownOptions{}.bins;
     const std::uint64_t records = sizeof(cl_float8) * primitives;
     const std::uint64_t bins_of_chunks = sizeof(cl_float8) * 3 * bins * most.chunks;
     const std::uint64_t slots = (sizeof(cl_float8) + 4) * 3 * bins * (most.chunks + most.nodes);

@@ -31,6 +31,17 @@ TEST_CASE("kernel_text: includes are replaced once, and lines keep their numbers
         CHECK(std::find(files.begin(), files.end(), file) != files.end());
 }
 
+TEST_CASE("kernel_text: a text that a launch brings stands in for runtime/inserted.h, and may include files") {
+    add_kernels({{"text_test/f.cl", "one\n#include \"runtime/inserted.h\"\nthree\n"}, {"text_test/g.h", "g1\n"}});
+    CHECK(resolve_kernel_text("text_test/f.cl", "own\n#include \"text_test/g.h\"\n") ==
+          "#line 1 \"text_test/f.cl\"\none\n"
+          "#line 1 \"runtime/inserted.h\"\nown\n"
+          "#line 1 \"text_test/g.h\"\ng1\n"
+          "#line 3 \"runtime/inserted.h\"\n"
+          "#line 3 \"text_test/f.cl\"\nthree\n");
+    CHECK(resolve_kernel_text("text_test/f.cl").find("own") == std::string::npos);
+}
+
 TEST_CASE("kernel_text: BOXWOOD_KERNEL_DIR comes before what is embedded") {
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "boxwood_kernel_text_test";
     std::filesystem::create_directories(folder / "text_test");

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Whole builds by the builders from the top down.
+#include <doctest/doctest.h>
+
+#include "boxwood/build.hpp"
+#include "boxwood/error.hpp"
+#include "boxwood/procedural.hpp"
+#include "boxwood/update.hpp"
+#include "hierarchy/capacity.hpp"
+#include "hierarchy/forest_scene.hpp"
+#include "hierarchy/topdown.hpp"
+#include "support.hpp"
+#include "tuning.hpp"
+
+using namespace boxwood;
+using namespace boxwood::test;
+
+TEST_SUITE_BEGIN("hierarchy");
+
+namespace {
+
+double cost_of(const Scene& scene, Layout layout, Builder builder) {
+    BuildReport report;
+    build(test_device(), scene, {.levels = Levels::automatic, .layout = layout, .builder = builder}, &report);
+    return report.sah;
+}
+
+} // namespace
+
+TEST_CASE("topdown builds: the surface area heuristic costs less than Morton order, on every kind of scene") {
+    for (const ProceduralKind& kind : procedural_kinds()) {
+        CAPTURE(kind.name);
+        const std::uint64_t triangles = small_sizes() ? 100 : 5000, instances = small_sizes() ? 9 : 100;
+        const Scene scene = make_procedural(kind.name, {.triangles = triangles, .instances = instances});
+        for (const Layout layout : {Layout::binary, Layout::wide8})
+            CHECK(cost_of(scene, layout, Builder::sah) <= cost_of(scene, layout, Builder::lbvh));
+    }
+}
+
+TEST_CASE("topdown builds: updates build anew by the same builder") {
+    const Scene scene = make_procedural("forest", {.triangles = 300, .instances = 20});
+    for (const Builder builder : {Builder::sah, Builder::midpoint}) {
+        const BuildOptions options{.levels = Levels::two, .builder = builder};
+        AnimatedTree animated(test_device(), scene, options);
+        std::vector<glm::mat4> transforms;
+        for (const Instance& instance : scene.instances) transforms.push_back(instance.transform);
+        std::swap(transforms.front()[3], transforms.back()[3]);
+        animated.move_instances(transforms);
+        animated.rebuild();
+        CHECK(same_trees(download(test_device(), animated.tree()),
+                         download(test_device(), build(test_device(), animated.scene(), options))));
+    }
+}
+
+TEST_CASE("topdown builds: what the check of capacity counts on is what is taken") {
+    if (small_sizes()) return; // no use for memory of a simulator
+    for (const Tuning& tuning : {test_device().tuning(), Tuning{64, 4096, 1, 8}}) {
+        const TuningScope scope(tuning);
+        Device& device = test_device();
+        const std::size_t count = 20000;
+        const Mesh mesh = random_mesh(count, 1.0f, 0.1f, 3);
+        std::vector<Aabb> boxes;
+        for (const glm::uvec3& triangle : mesh.triangles) boxes.push_back(box_of(mesh, triangle));
+        const Buffer<Aabb> uploaded = upload(device, boxes, "boxes");
+        Buffer<std::uint32_t> offsets = upload(device, std::vector<std::uint32_t>{0, 20000}, "offsets");
+        device.finish();
+        device.trim();
+        device.reset_peak();
+        const std::uint64_t before = device.held_bytes();
+        const TopDownTree tree = topdown(device, uploaded, {}, std::move(offsets), {}, {}, {});
+        const std::uint64_t taken = device.peak_bytes() - before, topology = 24 * count;
+        const std::uint64_t counted = topdown_bytes(device, count).all + topology;
+        CHECK(counted >= 0.9 * static_cast<double>(taken));
+        CHECK(counted <= 1.1 * static_cast<double>(taken));
+    }
+}
+
+TEST_CASE("topdown builds: refused before the work when their records do not fit") {
+    Device& device = test_device();
+    const std::uint64_t triangles = device.info().global_bytes / 150;
+    std::uint64_t asked[2] = {0, 0};
+    for (const Builder builder : {Builder::lbvh, Builder::sah}) {
+        try {
+            check_capacity(device, Layout::wide8, Bounds::aabb, triangles, triangles, 0, builder);
+        } catch (const CapacityError& error) {
+            asked[builder == Builder::sah ? 1 : 0] = error.asked;
+        }
+    }
+    CHECK(asked[1] > 0);
+    CHECK(asked[1] != asked[0]);
+}
+
+TEST_SUITE_END();
