@@ -60,7 +60,9 @@ Json options_report(const Arguments& arguments, const InfluenceStudy& study) {
                                              {"max_leaf_primitives", each.max_leaf_primitives},
                                              {"split_plane_quality", each.split_plane_quality},
                                              {"acceptable_children", each.acceptable_children},
-                                             {"excellent_children", each.excellent_children}};
+                                             {"excellent_children", each.excellent_children},
+                                             {"costed_leaves", builder.costed_leaves},
+                                             {"share", builder.share}};
     }
     return options;
 }

@@ -29,18 +29,19 @@ TopDownOptions paper_options(const char* measure, const char* axes) {
 }
 
 StudyBuilder paper_builder(const char* name, const char* measure, const char* axes) {
-    return {name, paper_options(measure, axes), true, false};
+    return {name, paper_options(measure, axes), true, false, 1.0f};
 }
 
 /// All axes at every node, leaves of up to 2.
-StudyBuilder all_axes_builder(const char* name, const char* measure, const char* cost, bool costed_leaves) {
+StudyBuilder all_axes_builder(const char* name, const char* measure, const char* cost, bool costed_leaves,
+                              float share) {
     TopDownOptions options;
     options.measure = measure;
     options.cost = cost;
     options.axes = "all_axes";
     options.bins = 40;
     options.max_leaf_primitives = 2;
-    return {name, options, false, costed_leaves};
+    return {name, options, false, costed_leaves, share};
 }
 
 /// Triangles on the device, with what builders split them by.
@@ -110,8 +111,9 @@ void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays
     result.hits = static_cast<double>(hit) / count;
 }
 
-TreeResult study_tree(Device& device, const Primitives& primitives, const InfluenceRecord& area,
-                      const StudyBuilder& builder, const Buffer<Ray>& rays) {
+TreeResult study_tree(Device& device, const Primitives& primitives, InfluenceRecord area, const StudyBuilder& builder,
+                      const Buffer<Ray>& rays) {
+    area.share = builder.share;
     const Buffer<InfluenceRecord> areas = upload(device, std::vector{area}, "areas");
     const Buffer<std::uint32_t> starts = upload(device, std::vector<std::uint32_t>{0, 1}, "areas of trees");
     const BufferView<const float> middles; // of the boxes
@@ -126,6 +128,7 @@ TreeResult study_tree(Device& device, const Primitives& primitives, const Influe
     follow_rays(device, {tree.topology, volumes, tree.leaves, sorted_triangles(device, tree.topology, primitives)},
                 rays, result);
     const AnalysisTree nodes = analysis_tree(device, tree.topology, volumes, tree.leaves);
+    area.share = 1.0f; // all rays that are followed
     result.analysis = analysis_of(nodes, measure_nodes(nodes, std::span(&area, 1)));
     result.splits = tree.splits;
     result.axes_tried = tree.axes_tried;
@@ -140,9 +143,9 @@ std::vector<StudyBuilder> study_builders() {
             paper_builder("PAH+SPFH", "projected_measure", "facing_axes"),
             paper_builder("PAH+LSPH", "projected_measure", "longest_axes"),
             paper_builder("SAH+SPFH", "surface_measure", "facing_axes"),
-            all_axes_builder("sah-axes", "surface_measure", "measured_cost", false),
-            all_axes_builder("sah-best", "surface_measure", "overlap_cost", true),
-            all_axes_builder("blend", "expected_measure", "overlap_cost", true)};
+            all_axes_builder("sah-axes", "surface_measure", "measured_cost", false, 0.0f),
+            all_axes_builder("sah-best", "surface_measure", "overlap_cost", true, 0.0f),
+            all_axes_builder("blend", "expected_measure", "overlap_cost", true, 0.9f)};
 }
 
 std::vector<StudyBuilder> parameter_cases() {
@@ -164,7 +167,7 @@ ConfigurationResult study_configuration(Device& device, const Configuration& con
                                         std::span<const StudyBuilder> builders, const std::vector<Ray>& rays) {
     ConfigurationResult result;
     result.configuration = configuration;
-    const Mesh local = local_mesh(scene, configuration.record);
+    const Mesh local = local_mesh(device, scene, configuration.record);
     result.triangles = local.triangles.size();
     if (local.triangles.empty()) return result;
     const Primitives primitives = upload_primitives(device, local);

@@ -19,6 +19,7 @@ struct StudyBuilder {
     TopDownOptions options;
     bool barycentres = false;   ///< Primitives go by barycentres, as in the paper, not by the centres of their boxes.
     bool costed_leaves = false; ///< Leaves by cost, besides those of the options.
+    float share = 1.0f;         ///< Of all rays, those that follow the area, as the builder is told.
 };
 
 /// The base of all ratios.

@@ -50,10 +50,10 @@ struct Columns {
     Json better = Json::object();
 };
 
-Columns columns(const InfluenceStudy& study, const Group& group, const Figure& figure) {
+Columns columns(const InfluenceStudy& study, const Group& group, const Figure& figure, const Figure& base_figure = {}) {
     Columns json;
     for (const StudyBuilder& builder : study.builders) {
-        const Ratios found = ratios(study.results, group, figure, builder.name, study_base);
+        const Ratios found = ratios(study.results, group, figure, builder.name, study_base, base_figure);
         if (!found.count) continue;
         json.geomean[builder.name] = found.geomean;
         json.worst[builder.name] = found.worst;
@@ -73,6 +73,7 @@ void add_ratios(const InfluenceStudy& study, Json& report) {
     report["better_in_to_hit"] = to_hit.better;
     report["published_geomean"] = published.geomean;
     report["published_better_in"] = published.better;
+    report["geomean_over_published"] = columns(study, {}, cost, published_cost).geomean;
     report["groups"] = Json::object();
     for (const Group& group : groups_of(study.results))
         report["groups"][group.name()] = {{"geomean", columns(study, group, cost).geomean},

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "boxwood/geometry.hpp"
 #include "boxwood/gltf.hpp"
+#include "hierarchy/area_triangles.hpp"
 
 namespace boxwood::cli {
 
@@ -55,37 +57,6 @@ void read_words(const nlohmann::json& entry, Configuration& configuration) {
     configuration.orientation = entry.at("orientation").get<std::string>();
 }
 
-/// The part of a convex polygon where inside(point) >= 0, linear in the point.
-template <class Inside>
-std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const Inside& inside) {
-    std::vector<glm::dvec3> result;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const double at_a = inside(a), at_b = inside(b);
-        if (at_a >= 0.0) result.push_back(a);
-        if ((at_a >= 0.0) != (at_b >= 0.0)) result.push_back(a + (b - a) * (at_a / (at_a - at_b)));
-    }
-    return result;
-}
-
-/// Whether a triangle has a point in the region: what its six planes leave of it.
-bool reaches(const InfluenceRecord& area, std::vector<glm::dvec3> triangle) {
-    for (glm::dvec3& p : triangle) {
-        glm::dvec3 local(0.0);
-        for (int k = 0; k < 3; ++k)
-            local += (p[k] - area.origin[k]) * glm::dvec3(area.right[k], area.up[k], area.forward[k]);
-        p = local;
-    }
-    triangle = clip(triangle, [&](const glm::dvec3& p) { return p.z - area.near; });
-    triangle = clip(triangle, [&](const glm::dvec3& p) { return area.far - p.z; });
-    for (const double sign : {-1.0, 1.0}) {
-        const auto reach = [&](const glm::dvec3& p) { return area.point ? p.z : 1.0; };
-        triangle = clip(triangle, [&](const glm::dvec3& p) { return reach(p) * area.half_width + sign * p.x; });
-        triangle = clip(triangle, [&](const glm::dvec3& p) { return reach(p) * area.half_height + sign * p.y; });
-    }
-    return !triangle.empty();
-}
-
 } // namespace
 
 std::vector<Configuration> load_configurations(const std::filesystem::path& file) {
@@ -117,13 +88,14 @@ std::optional<Mesh> load_study_scene(const std::string& name, const std::filesys
     return scene.meshes.empty() ? Mesh{} : std::move(scene.meshes[0]);
 }
 
-Mesh local_mesh(const Mesh& mesh, const InfluenceRecord& area) {
+Mesh local_mesh(Device& device, const Mesh& mesh, const InfluenceRecord& area) {
+    Scene scene;
+    scene.meshes.push_back(mesh);
+    const Geometry geometry = upload(device, scene);
     Mesh local{mesh.name, mesh.positions, {}};
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        const std::vector<glm::dvec3> corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
-                                              mesh.positions[triangle.z]};
-        if (reaches(area, corners)) local.triangles.push_back(triangle);
-    }
+    for (const std::uint32_t triangle :
+         download(device, area_triangles(device, geometry.positions, geometry.triangles, area)))
+        local.triangles.push_back(mesh.triangles[triangle]);
     return local;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "boxwood/device.hpp"
 #include "boxwood/influence.hpp"
 #include "boxwood/scene.hpp"
 #include "shared/ray.h"
@@ -32,7 +33,7 @@ std::vector<Configuration> load_configurations(const std::filesystem::path& file
 std::optional<Mesh> load_study_scene(const std::string& name, const std::filesystem::path& folder, std::uint64_t seed);
 
 /// The triangles of `mesh` with a point in the region of `area`; an empty mesh when there are none.
-Mesh local_mesh(const Mesh& mesh, const InfluenceRecord& area);
+Mesh local_mesh(Device& device, const Mesh& mesh, const InfluenceRecord& area);
 
 /// Rays that leave the area's rectangle uniformly, along the area's rays, without an end.
 std::vector<Ray> area_rays(const InfluenceRecord& area, std::uint32_t count, std::uint64_t seed);

@@ -70,11 +70,12 @@ std::optional<double> published_cost(const ConfigurationResult& result, const st
 }
 
 Ratios ratios(std::span<const ConfigurationResult> results, const Group& group, const Figure& figure,
-              const std::string& builder, const std::string& base) {
+              const std::string& builder, const std::string& base, const Figure& base_figure) {
     Ratios ratios;
     double logarithms = 0.0;
     for (const ConfigurationResult& result : results) {
-        const std::optional<double> value = figure(result, builder), unit = figure(result, base);
+        const std::optional<double> value = figure(result, builder);
+        const std::optional<double> unit = base_figure ? base_figure(result, base) : figure(result, base);
         if (!group.has(result) || !value || !unit || !(*value > 0.0 && *unit > 0.0)) continue;
         const double ratio = *value / *unit;
         ++ratios.count;

@@ -50,9 +50,9 @@ std::optional<double> cost(const ConfigurationResult& result, const std::string&
 std::optional<double> cost_to_hit(const ConfigurationResult& result, const std::string& builder);
 std::optional<double> published_cost(const ConfigurationResult& result, const std::string& builder);
 
-/// The figures of `builder` over those of `base`, where both are known and not zero.
+/// The figures of `builder` over those of `base`, by `base_figure` where that is given, where both are known and not zero.
 Ratios ratios(std::span<const ConfigurationResult> results, const Group& group, const Figure& figure,
-              const std::string& builder, const std::string& base);
+              const std::string& builder, const std::string& base, const Figure& base_figure = {});
 
 /// The mean of a figure over the configurations that have it; nothing when none has.
 std::optional<double> mean(std::span<const ConfigurationResult> results, const Group& group, const Figure& figure,
@@ -77,6 +77,7 @@ void print_study(const InfluenceStudy& study);
 ///                         "fallbacks"}}}]
 ///     "geomean", "worst", "better_in", "geomean_to_hit", "worst_to_hit", "better_in_to_hit", "published_geomean",
 ///     "published_better_in": {BUILDER: X}    of ratios to SAH+LSPH
+///     "geomean_over_published": {BUILDER: X} of our costs over the published ones of SAH+LSPH
 ///     "groups": {GROUP: {"configurations", "geomean", "geomean_to_hit", "published_geomean"}}
 ///     "errors": {"plane" | "point": {BUILDER: {"pah_culled", "pah", "sah", "published_pah", "published_sah"}}}
 ///     "overlap": {BUILDER: {LEVEL: {"all", "culled"}}}, "published_overlap": {BUILDER: {"all", "culled"}}

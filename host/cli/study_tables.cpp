@@ -70,6 +70,13 @@ void print_ratios(const InfluenceStudy& study, const Figure& figure, bool publis
         better.push_back(theirs.count ? ours + '|' + std::to_string(theirs.better) : ours);
     }
     table.add(std::move(better));
+    if (published) {
+        std::vector<std::string> row{"over published base"};
+        for (const StudyBuilder& builder : study.builders)
+            row.push_back(
+                fixed(ratios(study.results, {}, figure, builder.name, study_base, published_cost).geomean, 3));
+        table.add(std::move(row));
+    }
     table.print(title);
 }
 
