@@ -4,6 +4,8 @@
 
 #include "boxwood/analysis.hpp"
 #include "boxwood/appearance.hpp"
+#include "boxwood/area_index.hpp"
+#include "boxwood/area_probe.hpp"
 #include "boxwood/bounds.hpp"
 #include "boxwood/buffer.hpp"
 #include "boxwood/build.hpp"
