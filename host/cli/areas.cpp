@@ -58,6 +58,13 @@ AreaMemory area_memory(const TreeImage& tree) {
 }
 
 void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
+    for (const ProbedArea& each : prepared.probed)
+        report["probe"].push_back({{"rays", each.rays},
+                                   {"count", each.count},
+                                   {"kind", each.area.kind == AreaKind::plane ? "plane" : "point"},
+                                   {"global_cost", each.global_cost},
+                                   {"local_cost", each.local_cost},
+                                   {"kept", each.kept}});
     if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return;
     const AreaMemory memory = area_memory(tree);
     Json& areas = report["areas"];
@@ -74,9 +81,14 @@ void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
 }
 
 std::string area_summary(const TreeImage& tree, const Prepared& prepared) {
-    if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return "";
-    const AreaMemory memory = area_memory(tree);
     std::ostringstream out;
+    out << std::fixed << std::setprecision(1);
+    for (const ProbedArea& each : prepared.probed)
+        out << "probe: " << each.count << ' ' << each.rays << " rays suggest a "
+            << (each.area.kind == AreaKind::plane ? "plane" : "point") << " area: " << each.local_cost
+            << " tests per ray instead of " << each.global_cost << (each.kept ? ", kept\n" : ", not kept\n");
+    if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return out.str();
+    const AreaMemory memory = area_memory(tree);
     out << grouped(tree.areas.size()) << " of " << grouped(prepared.options.areas.size())
         << " influence areas hold triangles; global tree " << mebibytes(memory.global_tree) << ", local trees "
         << mebibytes(memory.local_trees) << ", areas " << grouped(memory.areas) << " bytes, "

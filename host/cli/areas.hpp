@@ -19,11 +19,11 @@ struct AreaMemory {
 /// O(nodes).
 AreaMemory area_memory(const TreeImage& tree);
 
-/// Of a tree with influence areas or one that was to have them: "areas": {"kept", "index", "triangles" (by area, of a tree that was
+/// "probe": [{"rays", "count", "kind", "global_cost", "local_cost", "kept"}] of areas that a probe suggested. Of a tree with influence areas or one that was to have them: "areas": {"kept", "index", "triangles" (by area, of a tree that was
 /// built), "global_tree_bytes", "local_tree_bytes", "area_bytes", "index_bytes"}.
 void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report);
 
-/// The same as a line for a summary; empty without areas.
+/// The same as lines for a summary; empty without areas.
 std::string area_summary(const TreeImage& tree, const Prepared& prepared);
 
 } // namespace boxwood::cli

@@ -68,7 +68,7 @@ void add_example(CLI::App& command, const std::string& lines);
 /// Build options and whether any was given.
 struct BuildChoice {
     BuildOptions options;
-    std::string areas; ///< A file of influence areas; empty or "none" for none.
+    std::string areas; ///< A file of influence areas, or "probe"; empty or "none" for none.
     std::vector<const CLI::Option*> declared;
 
     bool given() const;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "boxwood/area_probe.hpp"
 #include "boxwood/bxw.hpp"
 #include "boxwood/gltf.hpp"
+#include "boxwood/rays.hpp"
 
 namespace boxwood::cli {
 
@@ -31,15 +33,35 @@ Input load_input(const std::filesystem::path& file, bool quiet) {
     return input;
 }
 
+namespace {
+
+/// What --areas names. Probes are from the scene's first camera.
+std::vector<InfluenceArea> areas_of(Device& device, const Input& input, const BuildChoice& choice,
+                                    std::vector<ProbedArea>& probed) {
+    if (choice.areas.empty() || choice.areas == "none") return {};
+    if (choice.areas != "probe") return load_areas(choice.areas);
+    const Camera camera = input.scene.cameras.empty() ? default_camera(input.scene) : input.scene.cameras[0];
+    probed = probe_areas(device, input.scene, camera, choice.options);
+    std::vector<InfluenceArea> areas;
+    for (const ProbedArea& each : probed)
+        if (each.kept) areas.push_back(each.area);
+    return areas;
+}
+
+} // namespace
+
 Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) {
     if (!input.tree) {
         BuildOptions options = choice.options;
-        if (!choice.areas.empty() && choice.areas != "none") options.areas = load_areas(choice.areas);
+        std::vector<ProbedArea> probed;
+        options.areas = areas_of(device, input, choice, probed);
+        if (options.areas.empty() && options.builder == Builder::pah)
+            options.builder = Builder::sah; // no area is worth it
         BuildReport report;
         Tree tree = build(device, input.scene, options, &report);
         options.layout = tree.layout;
         options.area_index = tree.area_index;
-        return {std::move(tree), options, std::move(report)};
+        return {std::move(tree), options, std::move(report), std::move(probed)};
     }
     if (choice.given())
         throw UsageError(input.file.string() +
@@ -50,7 +72,7 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
     options.bounds.kind = input.tree->bounds;
     options.area_index = input.tree->area_index.kind;
     options.areas.resize(input.tree->areas.size()); // that there are some is all that is read of them
-    return {upload(device, *input.tree), options, std::nullopt};
+    return {upload(device, *input.tree), options, std::nullopt, {}};
 }
 
 } // namespace boxwood::cli

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "boxwood/area_probe.hpp"
 #include "boxwood/build.hpp"
 #include "boxwood/scene.hpp"
 #include "boxwood/tree_image.hpp"
@@ -32,6 +33,7 @@ struct Prepared {
     Tree tree;
     BuildOptions options; ///< As asked for, the layout as it was chosen; or what a stored tree tells.
     std::optional<BuildReport> report;
+    std::vector<ProbedArea> probed; ///< With --areas probe.
 };
 
 /// The stored tree of a .bxw file, else one built. Throws UsageError for build options beside a stored tree.

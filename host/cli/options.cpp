@@ -138,10 +138,10 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         add_builder(command, options),
         add_morton(command, options),
         command
-            .add_option(
-                "--areas", choice.areas,
-                "Influence areas with trees of their own for the rays that follow them: a JSON file, or none (default)")
-            ->type_name("FILE"),
+            .add_option("--areas", choice.areas,
+                        "Influence areas with trees of their own for the rays that follow them: a JSON file, those "
+                        "that a probe of 16 x 16 camera rays finds and that are worth it (probe), or none (default)")
+            ->type_name("FILE|probe|none"),
         add_area_index(command, options),
     };
 }

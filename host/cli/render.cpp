@@ -271,7 +271,8 @@ void run(const Arguments& arguments) {
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
         query.push_back("statistics");
     Json report = base_report(device, input, prepared, query);
-    if (!prepared.options.areas.empty()) add_areas(download(device, prepared.tree), prepared, report);
+    if (!prepared.options.areas.empty() || !prepared.probed.empty())
+        add_areas(download(device, prepared.tree), prepared, report);
     for (const std::string& warning : render.warnings()) report["scene"]["warnings"].push_back(warning);
     for (const std::string& warning : around.warnings)
         report["scene"]["warnings"].push_back(around.name + ": " + warning);

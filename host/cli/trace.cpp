@@ -140,7 +140,8 @@ void run(const Arguments& arguments) {
         result.work = count_work(device, prepared.tree, rays);
     }
     Json report = base_report(device, input, prepared, {"statistics"});
-    if (!prepared.options.areas.empty()) add_areas(download(device, prepared.tree), prepared, report);
+    if (!prepared.options.areas.empty() || !prepared.probed.empty())
+        add_areas(download(device, prepared.tree), prepared, report);
     add_to_report(arguments, input, result, report);
     save_report(arguments.report, report);
     progress.clear();

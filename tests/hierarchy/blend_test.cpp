@@ -33,9 +33,9 @@ TreeImage built(const Scene& scene, Builder builder, std::vector<InfluenceArea> 
 }
 
 /// What an image costs the rays of an area, and those from everywhere.
-Analysis analysed(const TreeImage& image, const Scene& scene, const InfluenceArea& area) {
+LevelFigures analysed(const TreeImage& image, const Scene& scene, const InfluenceArea& area) {
     const AnalysisTree tree = analysis_trees(image, scene).at(0);
-    return analysis_of(tree, measure_nodes(tree, influence_records(std::vector{area})));
+    return analysis_of(tree, measure_nodes(tree, influence_records(std::vector{area}))).all;
 }
 
 } // namespace
