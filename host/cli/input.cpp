@@ -55,7 +55,7 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
         BuildOptions options = choice.options;
         std::vector<ProbedArea> probed;
         options.areas = areas_of(device, input, choice, probed);
-        if (options.areas.empty() && options.builder == Builder::pah)
+        if (options.areas.empty() && (options.builder == Builder::pah || options.builder == Builder::blend))
             options.builder = Builder::sah; // no area is worth it
         BuildReport report;
         Tree tree = build(device, input.scene, options, &report);
