@@ -25,7 +25,6 @@ struct Arguments {
     bool json = false;
     std::filesystem::path boxes;
     DepthRange depths{0, 4};
-    std::filesystem::path areas;
     BuildChoice choice;
 };
 
@@ -43,11 +42,16 @@ DepthRange to_depths(const std::string& text) {
 }
 
 /// The tree of a .bxw file as it is stored, that of a scene built; the latter alone needs a device.
-void export_boxes(const Arguments& arguments, const Input& input, std::span<const InfluenceRecord> areas) {
+void export_boxes(const Arguments& arguments, const Input& input) {
     std::optional<TreeImage> built;
+    std::vector<InfluenceRecord> areas;
     if (!input.tree || arguments.choice.given()) {
         Device device = open_device(arguments.common);
-        built = download(device, prepare(device, input, arguments.choice).tree);
+        const Prepared prepared = prepare(device, input, arguments.choice);
+        built = download(device, prepared.tree);
+        areas = influence_records(prepared.options.areas);
+    } else {
+        for (const LocalArea& area : input.tree->areas) areas.push_back(area.region);
     }
     Scene lines = box_lines(built ? *built : *input.tree, input.scene, arguments.depths);
     std::size_t boxes = 0;
@@ -183,8 +187,6 @@ void run(const Arguments& arguments) {
     check_output(arguments.boxes, ".glb");
     if (arguments.boxes.empty() && arguments.choice.given())
         throw UsageError("build options are of use with --boxes only");
-    std::vector<InfluenceRecord> areas;
-    if (!arguments.areas.empty()) areas = influence_records(load_areas(arguments.areas), arguments.areas.string());
     const Input input = load_input(arguments.file, arguments.common.quiet);
     if (arguments.json) {
         Json report = {{"boxwood", BOXWOOD_VERSION}, {"scene", scene_report(input)}};
@@ -200,7 +202,7 @@ void run(const Arguments& arguments) {
         if (input.tree) print_tree(*input.tree);
         print_reasons(input);
     }
-    if (!arguments.boxes.empty()) export_boxes(arguments, input, areas);
+    if (!arguments.boxes.empty()) export_boxes(arguments, input);
 }
 
 } // namespace
@@ -211,13 +213,12 @@ Command add_info(CLI::App& tool) {
     app->add_option("FILE", arguments->file, "glTF 2.0 scene or .bxw file")->required()->type_name("");
     app->add_flag("--json", arguments->json, "As JSON, for scripts");
     CLI::Option* boxes = app->add_option(
-        "--boxes", arguments->boxes, "Write the boxes of the tree's nodes as lines to this binary glTF file (.glb)");
+        "--boxes", arguments->boxes,
+        "Write the boxes of the tree's nodes, and its influence areas, as lines to this binary glTF file (.glb)");
     app->add_option_function<std::string>(
            "--depth", [arguments](const std::string& text) { arguments->depths = to_depths(text); },
            "Depths of the nodes for --boxes, the roots having 0 (default: 0-4)")
         ->type_name("A-B")
-        ->needs(boxes);
-    app->add_option("--areas", arguments->areas, "Influence areas (JSON) whose regions --boxes writes, too")
         ->needs(boxes);
     add_build_options(*app, arguments->choice);
     add_common(*app, arguments->common);
