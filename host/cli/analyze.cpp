@@ -18,7 +18,7 @@ namespace {
 struct Arguments {
     Common common;
     std::filesystem::path input;
-    std::filesystem::path areas;
+    std::filesystem::path rays_of;
     std::filesystem::path nodes;
     std::filesystem::path report;
     BuildChoice choice;
@@ -174,6 +174,14 @@ void print_leaves(const std::vector<Analysed>& trees) {
     table.print("Sizes of leaves");
 }
 
+/// Those that the tree was built with.
+std::vector<InfluenceRecord> areas_of(const Input& input, const Prepared& prepared) {
+    if (!input.tree) return influence_records(prepared.options.areas);
+    std::vector<InfluenceRecord> areas;
+    for (const LocalArea& area : input.tree->areas) areas.push_back(area.region);
+    return areas;
+}
+
 void run(const Arguments& arguments) {
     arguments.choice.check();
     check_output(arguments.nodes, "");
@@ -181,11 +189,13 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 4);
     progress.step("reading " + arguments.input.string());
     std::vector<InfluenceRecord> areas;
-    if (!arguments.areas.empty()) areas = influence_records(load_areas(arguments.areas), arguments.areas.string());
+    if (!arguments.rays_of.empty())
+        areas = influence_records(load_areas(arguments.rays_of), arguments.rays_of.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
     progress.step("building");
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice);
+    if (arguments.rays_of.empty()) areas = areas_of(input, prepared);
     progress.step("analysing");
     const TreeImage built = input.tree ? TreeImage{} : download(device, prepared.tree);
     const std::vector<Analysed> trees = analyse(input.tree ? *input.tree : built, input.scene, areas);
@@ -217,13 +227,16 @@ Command add_analyze(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("analyze", "Costs, overlap and shape of a tree: in all, by level, per node");
     const auto arguments = std::make_shared<Arguments>();
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
-    app->add_option("--areas", arguments->areas,
-                    "Influence areas (JSON) whose rays the tree is judged by, beside isotropic ones");
+    app->add_option(
+           "--rays-of", arguments->rays_of,
+           "Influence areas (JSON) whose rays the tree is judged by, beside isotropic ones (default: those that "
+           "it was built with)")
+        ->type_name("FILE");
     app->add_option("--nodes", arguments->nodes, "JSON file to write with the figures of every node");
     app->add_option("--report", arguments->report, "JSON report to write");
     add_build_options(*app, arguments->choice);
     add_common(*app, arguments->common);
-    add_example(*app, "  boxwood analyze forest.bxw --areas sun.json --report analysis.json");
+    add_example(*app, "  boxwood analyze forest.bxw --rays-of sun.json --report analysis.json");
     return {app, [arguments] { run(*arguments); }};
 }
 

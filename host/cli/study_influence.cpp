@@ -5,6 +5,7 @@
 #include "boxwood/geometry.hpp"
 #include "boxwood/reduce.hpp"
 #include "boxwood/volumes.hpp"
+#include "hierarchy/binary_parts.hpp"
 #include "runtime/launch.hpp"
 #include "traverse/ray_cost.hpp"
 
@@ -80,15 +81,6 @@ Primitives upload_primitives(Device& device, const Mesh& mesh) {
     return primitives;
 }
 
-Buffer<Triangle> sorted_triangles(Device& device, const Topology& topology, const Primitives& primitives) {
-    Buffer<Triangle> triangles = make_scratch<Triangle>(device, primitives.count(), "triangles");
-    const Slices slices = cut(device, primitives.count());
-    launch(device, {"hierarchy/triangle_records.cl", "triangle_records"}, "triangles", slices.slices, topology.order,
-           topology.offsets, primitives.geometry.positions, primitives.geometry.triangles, triangles, 1u,
-           primitives.count(), slices.length);
-    return triangles;
-}
-
 /// Means over the rays.
 void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays, TreeResult& result) {
     const Buffer<RayVisits> visits = make_scratch<RayVisits>(device, rays.size(), "visits");
@@ -125,7 +117,8 @@ TreeResult study_tree(Device& device, const Primitives& primitives, InfluenceRec
         tree.leaves = costed_leaves(device, tree.topology, volumes, primitives.bounds, areas, starts,
                                     static_cast<float>(box_price), static_cast<float>(primitive_price));
     TreeResult result;
-    follow_rays(device, {tree.topology, volumes, tree.leaves, sorted_triangles(device, tree.topology, primitives)},
+    follow_rays(device,
+                {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {})},
                 rays, result);
     const AnalysisTree nodes = analysis_tree(device, tree.topology, volumes, tree.leaves);
     area.share = 1.0f; // all rays that are followed

@@ -70,7 +70,8 @@ double Polygon::area() const {
 }
 
 Polygon projection(const InfluenceRecord& area, std::span<const glm::dvec3, 8> corners) {
-    const double near = area.near;
+    // The eye sees nothing at no distance, where regions may begin.
+    const double near = area.point ? std::max<double>(area.near, area.far * 0x1p-20) : area.near;
     std::array<glm::dvec3, 8> local;
     Points points;
     for (std::size_t i = 0; i < 8; ++i) {

@@ -34,8 +34,8 @@ TEST_CASE("analyze: a scene and its .bxw file have the same figures, which add u
     for (const std::string options : {"--layout binary", "--layout wide8", "--bounds obb-points"}) {
         CAPTURE(options);
         tool.succeed("build random.glb -o random.bxw " + options);
-        const Json report = analyze(tool, "random.glb " + options + " --areas areas.json --nodes nodes.json");
-        const Json stored = analyze(tool, "random.bxw --areas areas.json");
+        const Json report = analyze(tool, "random.glb " + options + " --rays-of areas.json --nodes nodes.json");
+        const Json stored = analyze(tool, "random.bxw --rays-of areas.json");
         CHECK(report["analysis"] == stored["analysis"]);
         REQUIRE(report["analysis"]["trees"].size() == 1);
         const Json& tree = report["analysis"]["trees"][0];
@@ -69,11 +69,22 @@ TEST_CASE("analyze: a scene and its .bxw file have the same figures, which add u
     }
 }
 
+TEST_CASE("analyze: a tree is judged by the areas that it was built with, also once it is stored") {
+    const Tool tool;
+    tool.write("areas.json", one_area);
+    tool.succeed("scene random --triangles 300 -o random.glb");
+    tool.succeed("build random.glb -o random.bxw --areas areas.json");
+    const Json built = analyze(tool, "random.glb --areas areas.json")["analysis"]["trees"];
+    CHECK(built[0]["pah_culled"] > 0.0);
+    CHECK(analyze(tool, "random.bxw")["analysis"]["trees"] == built);
+    CHECK(analyze(tool, "random.bxw --rays-of areas.json")["analysis"]["trees"] == built);
+}
+
 TEST_CASE("analyze: two levels, tables, an empty scene, and wrong usage") {
     const Tool tool;
     tool.write("areas.json", one_area);
     tool.succeed("scene forest --instances 20 -o forest.glb");
-    const Run run = tool.succeed("analyze forest.glb --levels two --areas areas.json --report a.json");
+    const Run run = tool.succeed("analyze forest.glb --levels two --rays-of areas.json --report a.json");
     CHECK(run.out.find("top level") != std::string::npos);
     CHECK(run.err.empty());
     const Json trees = Json::parse(tool.contents("a.json"))["analysis"]["trees"];
@@ -82,10 +93,10 @@ TEST_CASE("analyze: two levels, tables, an empty scene, and wrong usage") {
     CHECK(trees[0].contains("pah"));
     CHECK_FALSE(trees[1].contains("pah")); // in object space, where the area is not
     tool.write("empty.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
-    CHECK(analyze(tool, "empty.gltf --areas areas.json")["analysis"]["trees"].empty());
+    CHECK(analyze(tool, "empty.gltf --rays-of areas.json")["analysis"]["trees"].empty());
     tool.succeed("analyze empty.gltf");
     CHECK(tool.run("analyze missing.glb").code == 3);
-    CHECK(tool.run("analyze empty.gltf --areas missing.json").code == 3);
+    CHECK(tool.run("analyze empty.gltf --rays-of missing.json").code == 3);
     CHECK(tool.run("analyze empty.gltf --nodes nowhere/n.json").code == 3);
     CHECK(tool.run("analyze").code == 2);
 }

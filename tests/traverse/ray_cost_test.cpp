@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "hierarchy/binary_parts.hpp"
 #include "hierarchy/forest_scene.hpp"
 #include "oracles/brute_force.hpp"
 #include "oracles/reference_builder.hpp"
-#include "runtime/launch.hpp"
 #include "traverse/ray_cost.hpp"
 #include "traverse/scenes.hpp"
 
@@ -38,11 +38,7 @@ struct Marked {
             leaves[i] = span.last - span.first + 1 <= leaf_size ? 1 : 0;
         }
         device_leaves = upload(device, leaves, "leaves");
-        triangles = make_buffer<Triangle>(device, count, "triangles");
-        const Slices slices = cut(device, count);
-        launch(device, {"hierarchy/triangle_records.cl", "triangle_records"}, "triangles", slices.slices,
-               built.forest.topology.order, built.forest.topology.offsets, built.geometry.positions,
-               built.geometry.triangles, triangles, 1u, count, slices.length);
+        triangles = triangle_records(device, built.forest.topology, built.geometry, {});
     }
 
     std::vector<RayVisits> visits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
