@@ -229,9 +229,9 @@ int run(const benchmarks::Arguments& arguments, const Choice& choice) {
     if (count > 0)
         std::printf(
             "%zu configurations of %u rays: %zu wrong, %zu by the naive rule; geometric means: with areas %.3f of "
-            "without, the exit rule %.3f of the naive one\n",
+            "the time and %.3f of the tests without, the exit rule %.3f of the time of the naive one\n",
             count, choice.rays, wrong, naive_wrong, std::exp(log_with / static_cast<double>(count)),
-            std::exp(log_rule / static_cast<double>(count)));
+            std::exp(log_tests / static_cast<double>(count)), std::exp(log_rule / static_cast<double>(count)));
     benchmarks::save_report(arguments, device.info(), milliseconds, ratios);
     return wrong == 0 ? 0 : 1;
 }
