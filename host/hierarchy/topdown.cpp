@@ -18,7 +18,8 @@ namespace {
 /// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
 /// work-items there are, and for the caches of a CPU.
 std::uint32_t large_above(const Device& device, std::uint64_t primitives) {
-    return std::clamp(cut(device, std::max<std::uint64_t>(primitives, 1)).length, 64u, 16384u);
+    // Several subtrees a work-item, so that the last ones do not leave the others idle.
+    return std::clamp(cut(device, std::max<std::uint64_t>(primitives, 1)).length / 4, 64u, 4096u);
 }
 
 Thresholds thresholds_of(const TopDownOptions& options) {
