@@ -161,14 +161,16 @@ TEST_CASE("info: the boxes of a tree as lines, from a scene and from its .bxw fi
 
     tool.write("areas.json", R"([{"kind": "plane", "point": [0, 9, 0], "direction": [0, -1, 0], "half_width": 5,
                                  "half_height": 5, "length": 9}])");
-    CHECK(tool.succeed("info forest.bxw --boxes boxes.glb --areas areas.json").out.find(", and 1 area ") !=
-          std::string::npos);
-    const Json meshes = gltf_json(tool, "boxes.glb")["meshes"];
-    CHECK(meshes[meshes.size() - 1]["name"] == "area 0");
-    CHECK(tool.run("info forest.bxw --areas areas.json").code == 2);
+    tool.succeed("build forest.glb -o areas.bxw --areas areas.json");
+    for (const std::string from : {"forest.glb --areas areas.json", "areas.bxw"}) {
+        CHECK(tool.succeed("info " + from + " --boxes boxes.glb").out.find(", and 1 area ") != std::string::npos);
+        const Json meshes = gltf_json(tool, "boxes.glb")["meshes"];
+        CHECK(meshes[meshes.size() - 1]["name"] == "area 0");
+    }
+    CHECK(tool.run("info forest.bxw --boxes x.glb --areas areas.json").code == 2);
     tool.write("areas.json", "[{}]");
-    CHECK(tool.run("info forest.bxw --boxes x.glb --areas areas.json").code == 3);
-    CHECK(tool.files() == Names{"areas.json", "boxes.glb", "forest.bxw", "forest.glb"});
+    CHECK(tool.run("info forest.glb --boxes x.glb --areas areas.json").code == 3);
+    CHECK(tool.files() == Names{"areas.bxw", "areas.json", "boxes.glb", "forest.bxw", "forest.glb"});
 }
 
 TEST_SUITE_END();
