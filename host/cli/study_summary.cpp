@@ -145,20 +145,18 @@ std::optional<double> published_overlap_culled(const ConfigurationResult& result
 }
 
 CaseFigures case_figures(const InfluenceStudy& study, const std::string& name) {
+    const auto per_split = [](std::uint64_t TreeResult::*count) {
+        return [count](const ConfigurationResult& result, const std::string& builder) -> std::optional<double> {
+            const TreeResult* tree = tree_of(result, builder);
+            if (!tree || tree->splits == 0) return std::nullopt;
+            return static_cast<double>(tree->*count) / static_cast<double>(tree->splits);
+        };
+    };
+    const auto mean_of = [&](const Figure& figure) { return mean(study.case_results, {}, figure, name).value_or(0.0); };
     CaseFigures figures;
-    double splits = 0.0, axes = 0.0, fallbacks = 0.0;
-    for (const ConfigurationResult& result : study.case_results) {
-        const TreeResult* tree = tree_of(result, name);
-        if (!tree) continue;
-        splits += static_cast<double>(tree->splits);
-        axes += static_cast<double>(tree->axes_tried);
-        fallbacks += static_cast<double>(tree->fallbacks);
-    }
-    figures.cost = mean(study.case_results, {}, cost, name).value_or(0.0);
-    if (splits > 0.0) {
-        figures.axes_per_node = axes / splits;
-        figures.fallback_share = fallbacks / splits;
-    }
+    figures.cost = mean_of(cost);
+    figures.axes_per_node = mean_of(per_split(&TreeResult::axes_tried));
+    figures.fallback_share = mean_of(per_split(&TreeResult::fallbacks));
     return figures;
 }
 

@@ -91,7 +91,7 @@ Figure overlap_to(std::uint32_t level, bool culled);
 std::optional<double> published_overlap(const ConfigurationResult& result, const std::string& builder);
 std::optional<double> published_overlap_culled(const ConfigurationResult& result, const std::string& builder);
 
-/// Per split node, over all trees of a case.
+/// Means over the trees of a case, of axes and fallbacks per split node.
 struct CaseFigures {
     double cost = 0.0;
     double axes_per_node = 0.0;

@@ -43,9 +43,9 @@ LevelFigures analysed(const TreeImage& image, const Scene& scene, const Influenc
 TEST_CASE("blend: the tree gives up what the rays that come do not need") {
     const Scene scene = scene_of({random_mesh(small_sizes() ? 60 : 2000, 5.0f, 0.7f, 7)});
     const InfluenceArea all = along_z(1.0), some = along_z(0.5);
-    const Analysis sah = analysed(built(scene, Builder::sah, {}), scene, all);
-    const Analysis known = analysed(built(scene, Builder::blend, {all}), scene, all);
-    const Analysis mixed = analysed(built(scene, Builder::blend, {some}), scene, all);
+    const LevelFigures sah = analysed(built(scene, Builder::sah, {}), scene, all);
+    const LevelFigures known = analysed(built(scene, Builder::blend, {all}), scene, all);
+    const LevelFigures mixed = analysed(built(scene, Builder::blend, {some}), scene, all);
     CHECK(known.all.pah_culled < 0.9 * sah.all.pah_culled);
     CHECK(known.all.pah_culled <= mixed.all.pah_culled);
     CHECK(mixed.all.pah_culled < sah.all.pah_culled);
