@@ -11,6 +11,7 @@
 #define ORIENTED 0
 #define LEVELS 1
 #define FLATTENED 0
+#define AREAS 0
 #define STATISTICS 0
 #include "traverse/traversal.h"
 #include "shared/visits.h"
