@@ -39,6 +39,7 @@ namespace {
 std::vector<InfluenceArea> areas_of(Device& device, const Input& input, const BuildChoice& choice,
                                     std::vector<ProbedArea>& probed) {
     if (choice.areas.empty() || choice.areas == "none") return {};
+    if (choice.areas == "lights") return areas_from_lights(input.scene);
     if (choice.areas != "probe") return load_areas(choice.areas);
     const Camera camera = input.scene.cameras.empty() ? default_camera(input.scene) : input.scene.cameras[0];
     probed = probe_areas(device, input.scene, camera, choice.options);

@@ -140,8 +140,9 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         command
             .add_option("--areas", choice.areas,
                         "Influence areas with trees of their own for the rays that follow them: a JSON file, those "
-                        "that a probe of 16 x 16 camera rays finds and that are worth it (probe), or none (default)")
-            ->type_name("FILE|probe|none"),
+                        "of shadow rays towards the scene's lights (lights), those that a probe of 16 x 16 camera "
+                        "rays finds and that are worth it (probe), or none (default)")
+            ->type_name("FILE|lights|probe|none"),
         add_area_index(command, options),
     };
 }
