@@ -35,14 +35,18 @@ Input load_input(const std::filesystem::path& file, bool quiet) {
 
 namespace {
 
-/// What --areas names. Probes are from the scene's first camera.
+/// What --areas names; of lights and of a probe from the scene's first camera, those that are worth it.
 std::vector<InfluenceArea> areas_of(Device& device, const Input& input, const BuildChoice& choice,
                                     std::vector<ProbedArea>& probed) {
     if (choice.areas.empty() || choice.areas == "none") return {};
-    if (choice.areas == "lights") return areas_from_lights(input.scene);
-    if (choice.areas != "probe") return load_areas(choice.areas);
-    const Camera camera = input.scene.cameras.empty() ? default_camera(input.scene) : input.scene.cameras[0];
-    probed = probe_areas(device, input.scene, camera, choice.options);
+    if (choice.areas == "lights") {
+        probed = judge_areas(device, input.scene, areas_from_lights(input.scene), choice.options);
+    } else if (choice.areas == "probe") {
+        const Camera camera = input.scene.cameras.empty() ? default_camera(input.scene) : input.scene.cameras[0];
+        probed = probe_areas(device, input.scene, camera, choice.options);
+    } else {
+        return load_areas(choice.areas);
+    }
     std::vector<InfluenceArea> areas;
     for (const ProbedArea& each : probed)
         if (each.kept) areas.push_back(each.area);
@@ -56,7 +60,7 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
         BuildOptions options = choice.options;
         std::vector<ProbedArea> probed;
         options.areas = areas_of(device, input, choice, probed);
-        if (options.areas.empty() && (options.builder == Builder::pah || options.builder == Builder::blend))
+        if (options.areas.empty() && needs_areas(options.builder))
             options.builder = Builder::sah; // no area is worth it
         BuildReport report;
         Tree tree = build(device, input.scene, options, &report);

@@ -60,7 +60,7 @@ void BuildChoice::check() const {
                          " out");
     if (!has_areas && options.area_index != AreaIndexKind::automatic)
         throw UsageError("--area-index is of use with --areas only");
-    if (!has_areas && (options.builder == Builder::pah || options.builder == Builder::blend))
+    if (!has_areas && needs_areas(options.builder))
         throw UsageError("--builder " + std::string(name(options.builder)) + " needs --areas");
     if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
         throw UsageError("--extents corners is of use with --bounds obb-moments only");
@@ -139,9 +139,9 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         add_morton(command, options),
         command
             .add_option("--areas", choice.areas,
-                        "Influence areas with trees of their own for the rays that follow them: a JSON file, those "
-                        "of shadow rays towards the scene's lights (lights), those that a probe of 16 x 16 camera "
-                        "rays finds and that are worth it (probe), or none (default)")
+                        "Influence areas with trees of their own for the rays that follow them: a JSON file; those "
+                        "of the scene's lights (lights) or that a probe of 16 x 16 camera rays finds (probe), as far "
+                        "as they are worth it; or none (default)")
             ->type_name("FILE|lights|probe|none"),
         add_area_index(command, options),
     };

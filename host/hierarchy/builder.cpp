@@ -17,6 +17,7 @@ constexpr Words<Builder, 5> builders{{{"lbvh", Builder::lbvh},
 
 std::string_view name(Builder builder) { return word_of(builders, builder); }
 Builder to_builder(std::string_view word) { return value_of(builders, "builder", word); }
+bool needs_areas(Builder builder) { return builder == Builder::pah || builder == Builder::blend; }
 
 TopDownOptions topdown_options(Builder builder, std::uint32_t block) {
     TopDownOptions options;

@@ -162,7 +162,7 @@ Tree empty_tree(const BuildOptions& options) {
     if (!options.areas.empty() && (oriented || options.levels == Levels::two))
         throw InputError("areas", oriented ? std::string(name(tree.bounds)) : "levels two",
                          "influence areas need one level of axis-aligned boxes");
-    if (options.areas.empty() && (options.builder == Builder::pah || options.builder == Builder::blend))
+    if (options.areas.empty() && needs_areas(options.builder))
         throw InputError("builder", std::string(name(options.builder)), "needs influence areas");
     tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
     return tree;

@@ -181,16 +181,84 @@ Cost cost_of(Device& device, const Tree& tree, const std::vector<Line>& lines) {
     return cost;
 }
 
+/// A scene's tree without areas, which those that an area comes with are set beside.
+struct Control {
+    Device& device;
+    const Scene& scene;
+    BuildOptions options; ///< With areas.
+    Tree tree;
+
+    Control(Device& on, const Scene& of, BuildOptions with) : device(on), scene(of), options(std::move(with)) {
+        options.areas.clear();
+        options.levels = Levels::one;
+        BuildOptions plain = options;
+        if (needs_areas(plain.builder)) plain.builder = Builder::sah;
+        tree = build(device, scene, plain);
+    }
+
+    ProbedArea judge(InfluenceArea area, const std::vector<Line>& lines, const std::string& rays) {
+        area.share = 1.0; // of these rays
+        options.areas = {area};
+        const Tree with = build(device, scene, options);
+        const Cost cost = cost_of(device, with, lines);
+        const bool lookup = with.areas.size() > 0;
+        ProbedArea result{area, rays, lines.size(), cost_of(device, tree, lines).tests, cost.tests, false};
+        result.local_cost += lookup ? 1.0 : 0.0;
+        result.kept = (cost.answered > 0 || !lookup) && result.local_cost < result.global_cost;
+        return result;
+    }
+};
+
+/// Rays of an area from what its own 16 x 16 rays hit back to where those start: shadow rays, where the area is a light's.
+std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceArea& area) {
+    const InfluenceRecord frame = influence_records(std::vector{area})[0];
+    std::vector<Ray> rays;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const double x = area.half_width * ((i % side + 0.5) * 2.0 / side - 1.0);
+        const double y = area.half_height * ((i / side + 0.5) * 2.0 / side - 1.0);
+        const bool point = area.kind == AreaKind::point;
+        const glm::dvec3 across = x * vector(frame.right) + y * vector(frame.up);
+        const glm::vec3 from(area.origin + (point ? glm::dvec3(0.0) : across));
+        const glm::vec3 d(vector(frame.forward) + (point ? across : glm::dvec3(0.0)));
+        rays.push_back(
+            {{from.x, from.y, from.z}, static_cast<float>(area.near), {d.x, d.y, d.z}, static_cast<float>(area.far)});
+    }
+    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
+    closest_hit(device, tree, upload(device, rays, "probe rays"), hits);
+    std::vector<Line> lines;
+    for (Line& line : lines_of(rays, download(device, hits))) {
+        const glm::vec3 from(line.to), d(line.from - line.to);
+        // Past the surface that was hit.
+        const Ray back{{from.x, from.y, from.z}, 0x1p-10f, {d.x, d.y, d.z}, 1.0f};
+        lines.push_back({back, line.to, line.from, -line.direction});
+    }
+    return lines;
+}
+
 } // namespace
 
-std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Camera& camera, BuildOptions options) {
+std::vector<ProbedArea> judge_areas(Device& device, const Scene& scene, const std::vector<InfluenceArea>& areas,
+                                    const BuildOptions& options) {
+    std::vector<ProbedArea> judged;
+    if (scene.instanced_triangle_count() == 0 || areas.empty()) return judged;
+    Control control(device, scene, options);
+    for (const InfluenceArea& area : areas) {
+        const std::vector<Line> lines = lines_back(device, control.tree, area);
+        if (lines.empty())
+            judged.push_back({area, "shadow", 0, 0.0, 0.0, false}); // nothing in its light
+        else
+            judged.push_back(control.judge(area, lines, "shadow"));
+        judged.back().area.share = area.share;
+    }
+    return judged;
+}
+
+std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Camera& camera,
+                                    const BuildOptions& options) {
     std::vector<ProbedArea> probed;
     if (scene.instanced_triangle_count() == 0) return probed;
-    options.areas.clear();
-    options.levels = Levels::one;
-    BuildOptions plain = options;
-    if (plain.builder == Builder::pah) plain.builder = Builder::sah; // what it makes of the global tree
-    const Tree tree = build(device, scene, plain);
+    Control control(device, scene, options);
+    const Tree& tree = control.tree;
     const Geometry geometry = upload(device, scene);
     const Box box = box_of(scene);
     const auto make = [&](const char* label) { return make_buffer<Ray>(device, side * side, label); };
@@ -207,14 +275,7 @@ std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Ca
         const std::vector<Line> lines = lines_of(download(device, *rays), download(device, hits));
         all += lines.size();
         for (const auto& [area, own] : find_areas(lines, box)) {
-            ProbedArea result{area, name, own.size(), 0.0, 0.0, false};
-            options.areas = {area};
-            const Tree local = build(device, scene, options);
-            const Cost cost = cost_of(device, local, own);
-            result.global_cost = cost_of(device, tree, own).tests;
-            result.local_cost = cost.tests + 1.0;
-            result.kept = cost.answered > 0 && result.local_cost < result.global_cost;
-            probed.push_back(result);
+            probed.push_back(control.judge(area, own, name));
         }
     }
     for (ProbedArea& each : probed) each.area.share = static_cast<double>(each.count) / static_cast<double>(all);

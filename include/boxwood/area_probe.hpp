@@ -18,12 +18,18 @@ struct ProbedArea {
     std::uint64_t count = 0;
     double global_cost = 0.0; ///< Volumes and primitives tested by one of its rays in a tree without areas.
     double local_cost = 0.0;  ///< The same with the area, its lookup counted as a volume.
-    bool kept = false;        ///< The local cost is lower, and the local tree answers.
+    bool kept = false;        ///< The local cost is lower, and local trees, where the builder makes any, answer.
 };
 
 /// Traces 16 x 16 rays of the camera and those that leave their hits, towards the default light and diffusely, looks for lines through
 /// one point and for parallel ones, and builds a tree with each area found to see what it saves. `options` are those of the tree; its
 /// areas are not read. Empty for a scene without triangles. Waits.
-std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Camera& camera, BuildOptions options);
+std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Camera& camera,
+                                    const BuildOptions& options);
+
+/// The same judgement of areas that are known, by rays from what their own rays hit back to where they start, as shadow rays run
+/// towards a light: one result for each area, its share as it was.
+std::vector<ProbedArea> judge_areas(Device& device, const Scene& scene, const std::vector<InfluenceArea>& areas,
+                                    const BuildOptions& options);
 
 } // namespace boxwood

@@ -26,6 +26,8 @@ enum class Builder {
 /// The words used in options, reports and on the command line. to_builder throws InputError listing them.
 std::string_view name(Builder builder);
 Builder to_builder(std::string_view word);
+/// True for the builders of known rays, pah and blend; where no area is known, sah is the same.
+bool needs_areas(Builder builder);
 
 /// How to build a tree.
 struct BuildOptions {

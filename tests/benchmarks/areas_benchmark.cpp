@@ -2,10 +2,8 @@
 // boxwood-benchmark-areas: trees with an influence area beside the same without, in the configurations of the influence study:
 // whether closest hits agree with brute force, the time of rays that follow the area, and of the rule that takes every hit in the
 // local tree for the closest, which is wrong. In one process and in turns; with --report also written as JSON.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <vector>
 
 #include "benchmark.hpp"
@@ -13,8 +11,9 @@
 #include "boxwood/trace.hpp"
 #include "cli/study_scenes.hpp"
 #include "oracles/brute_force.hpp"
+#include "race.hpp"
 #include "runtime/launch.hpp"
-#include "runtime/median.hpp"
+#include "scene/random.hpp"
 #include "support.hpp"
 #include "traverse/specialise.hpp"
 
@@ -24,29 +23,12 @@ std::uint64_t test::test_seed() { return 20260101; } // the oracles ask for it
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct Choice {
     std::filesystem::path scenes;
     std::filesystem::path areas;
     std::uint32_t rays = 100'000;
     bool brute_force = true;
     std::string builder = "sah";
-};
-
-/// Uniform in [0, 1).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    double next() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-
-private:
-    std::uint64_t state_;
 };
 
 /// A quarter each: in any direction from within the region, from its faces, along the area's lines from its faces, and parallel to
@@ -64,18 +46,18 @@ std::vector<Ray> hard_rays(const InfluenceRecord& area, std::uint32_t count) {
     std::vector<Ray> rays;
     for (std::uint32_t i = 0; i < count; ++i) {
         glm::dvec3 share;
-        for (int k = 0; k < 3; ++k) share[k] = random.next();
-        const int axis = static_cast<int>(3.0 * random.next());
-        if (i % 4 != 0) share[axis] = random.next() < 0.5 ? 0.0 : 1.0;
+        for (int k = 0; k < 3; ++k) share[k] = double(random.uniform());
+        const int axis = static_cast<int>(3.0 * double(random.uniform()));
+        if (i % 4 != 0) share[axis] = double(random.uniform()) < 0.5 ? 0.0 : 1.0;
         glm::dvec3 direction;
-        for (int k = 0; k < 3; ++k) direction[k] = random.next() - 0.5;
+        for (int k = 0; k < 3; ++k) direction[k] = double(random.uniform()) - 0.5;
         const glm::vec3 origin(place(share));
         if (i % 4 >= 2) {
             glm::dvec3 from = share, to = share;
             const int along = i % 4 == 2 ? 2 : (axis + 1) % 3;
             from[along] = 0.0;
             to[along] = 1.0;
-            direction = (place(to) - place(from)) * (random.next() < 0.5 ? 1.0 : -1.0);
+            direction = (place(to) - place(from)) * (double(random.uniform()) < 0.5 ? 1.0 : -1.0);
         }
         const glm::vec3 d(direction);
         rays.push_back({{origin.x, origin.y, origin.z}, 0.0f, {d.x, d.y, d.z}, INFINITY});
@@ -113,23 +95,6 @@ struct Result {
     double local_share = 0.0;                     ///< Of the area's rays, that the local tree answered.
     double without_tests = 0.0, with_tests = 0.0; ///< Volumes and primitives by one of those.
 };
-
-std::vector<double> race(Device& device, const std::vector<std::function<void()>>& contenders, int rounds) {
-    std::vector<std::vector<double>> times(contenders.size());
-    for (int round = -1; round < rounds; ++round) {
-        for (std::size_t i = 0; i < contenders.size(); ++i) {
-            device.finish();
-            const auto start = Clock::now();
-            contenders[i]();
-            device.finish();
-            const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-            if (round >= 0) times[i].push_back(ms);
-        }
-    }
-    std::vector<double> medians;
-    for (const auto& each : times) medians.push_back(median(each));
-    return medians;
-}
 
 Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, const InfluenceRecord& record,
                const Choice& choice, int rounds) {
@@ -181,7 +146,8 @@ Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, cons
     };
     count(without, result.without_tests);
     result.local_share = count(with, result.with_tests);
-    const auto ms = race(device,
+    const auto ms =
+        benchmarks::race(device,
                          {[&] { exact(without, rays, hits); }, [&] { exact(with, rays, hits); },
                           [&] { with.areas.size() > 0 ? naive(with, rays, hits) : exact(with, rays, hits); }},
                          rounds);

@@ -214,7 +214,7 @@ TEST_CASE("strategies: planes that the rays see edge-on come first") {
     which.options.measure = "projected_measure";
     which.options.axes = "facing_axes";
     which.options.split_plane_quality = 0.0f;
-    which.options.excellent_children = infinity; // what the first axis gives is good
+    which.options.excellent_children = 1e30f; // what the first axis gives is good
     const InfluenceArea plane = oblique_plane(), point = near_point();
     which.axis = [&](const Aabb& box) {
         glm::dvec3 facing(0.0);
