@@ -47,7 +47,8 @@ void closest_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, B
 void closest_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits,
                  BufferView<RayStatistics> statistics, const TraceOptions& options) {
     if (tree.empty()) {
-        fill(device, statistics, RayStatistics{});
+        const std::vector<RayStatistics> none(statistics.size());
+        write(device, std::span<const RayStatistics>(none), statistics);
         return write_misses(device, hits);
     }
     trace(device, tree, rays, hits, statistics, Query::closest_with_statistics, options);

@@ -71,6 +71,11 @@ struct Chances {
         return boxes.nodes.size() - 1;
     }
     void measure() {
+        // A chain: nodes are measured from their parents.
+        for (std::uint32_t i = 1; i < boxes.nodes.size(); ++i) {
+            boxes.nodes[i - 1].first_child = i;
+            boxes.nodes[i - 1].children = 1;
+        }
         const std::vector<NodeMeasures> surface = measure_nodes(boxes, {});
         projected.assign(boxes.nodes.size(), 0.0);
         expected = projected;
