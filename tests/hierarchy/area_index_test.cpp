@@ -133,7 +133,7 @@ TEST_CASE("area index: every kind finds the areas that hold a point, and no othe
                 CHECK(wrong == 0);
                 CHECK(unlike == 0);
             }
-            CHECK(inside > 0);
+            if (!small_sizes()) CHECK(inside > 0);
             if (count == 32 && !small_sizes()) {
                 CHECK(3 * tried[1] < tried[0]);
                 CHECK(3 * tried[2] < tried[0]);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The functions of projected_area.h, projected_overlap.h and distribution.h, one call a work-item.
+// The functions of projected_area.h and distribution.h, one call a work-item.
 // compile: GROUP_SIZE=1
 #include "hierarchy/distribution.h"
-#include "hierarchy/projected_overlap.h"
 
 /// chances[2 i + culled] of box i for areas[i].
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void chance_test(global const InfluenceRecord* areas,
@@ -14,21 +13,6 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void chance_test(
     const Box box = load_box(boxes + i);
     chances[2 * i] = area_chance(&area, box, false);
     chances[2 * i + 1] = area_chance(&area, box, true);
-}
-
-/// results[4 i ..] = overlap, smaller, without and with culling, of boxes 2 i and 2 i + 1 for areas[i].
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void overlap_test(global const InfluenceRecord* areas,
-                                                                                 global const Aabb* boxes,
-                                                                                 global float* results, uint count) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= count) return;
-    const InfluenceRecord area = areas[i];
-    float overlap, smaller;
-    for (uint culled = 0; culled < 2; ++culled) {
-        projected_overlap(&area, load_box(boxes + 2 * i), load_box(boxes + 2 * i + 1), culled != 0, &overlap, &smaller);
-        results[4 * i + 2 * culled] = overlap;
-        results[4 * i + 2 * culled + 1] = smaller;
-    }
 }
 
 /// corners[8 i ..]: the table's outline of box i from an eye, ended by -1.

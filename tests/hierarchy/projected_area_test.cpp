@@ -208,43 +208,6 @@ TEST_CASE("the chance of a box is the share of random rays from the rectangle th
     }
 }
 
-TEST_CASE("the overlap of two projections") {
-    Random random(84);
-    const int count = small_sizes() ? 20 : 5000;
-    std::vector<InfluenceRecord> areas;
-    std::vector<Aabb> boxes;
-    for (int i = 0; i < count; ++i) {
-        const InfluenceRecord area = random_area(random, i % 2 == 1, 1);
-        const glm::dvec3 place = random_place(random, area, 1);
-        areas.push_back(area);
-        boxes.push_back(random_box(random, 1, place));
-        boxes.push_back(i % 10 == 0 ? boxes.back() : random_box(random, 1, place + random_vector(random, 0.5)));
-    }
-    const std::vector<float> found =
-        run<float>("overlap_test", 4 * areas.size(), areas.size(), upload(test_device(), areas, "areas"),
-                   upload(test_device(), boxes, "boxes"));
-    int apart = 0, partly = 0;
-    for (std::size_t i = 0; i < areas.size(); ++i)
-        for (int culled = 0; culled < 2; ++culled) {
-            const Allowed a = allowed({areas[i], boxes[2 * i]}), b = allowed({areas[i], boxes[2 * i + 1]});
-            const double overlap = found[4 * i + 2 * culled], smaller = found[4 * i + 2 * culled + 1];
-            INFO("pair " << i << ", culled " << culled);
-            CHECK(smaller >= std::min(a.least[culled], b.least[culled]));
-            CHECK(smaller <= std::min(a.most[culled], b.most[culled]));
-            CHECK(overlap >= 0.0);
-            CHECK(overlap <= smaller);
-            const double reference = reference_overlap(areas[i], boxes[2 * i], boxes[2 * i + 1], culled != 0);
-            const double error = a.most[culled] - a.least[culled] + b.most[culled] - b.least[culled] +
-                                 100 * e * std::min(a.border, b.border);
-            CHECK(std::abs(overlap - reference) <= 4 * error);
-            if (i % 10 == 0) CHECK(overlap >= smaller * (1 - 1e-3) - error);
-            apart += overlap <= 0 && smaller > 0;
-            partly += overlap > 0 && overlap < 0.99 * smaller;
-        }
-    if (!small_sizes()) CHECK(partly > count / 10);
-    if (!small_sizes()) CHECK(apart > count / 50);
-}
-
 TEST_CASE("the measures add up the areas and the isotropic rays") {
     Random random(85);
     const Aabb root = {{-3, -2, -4}, {3, 5, 4}};

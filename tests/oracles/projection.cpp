@@ -98,17 +98,6 @@ double reference_chance(const InfluenceRecord& area, const Aabb& box, bool culle
     return area_of(culled ? culled_polygon(polygon) : polygon) / 4;
 }
 
-double reference_overlap(const InfluenceRecord& area, const Aabb& a, const Aabb& b, bool culled) {
-    Polygon shared = projection(area, a, area.near);
-    if (culled) shared = culled_polygon(shared);
-    const Polygon other = projection(area, b, area.near);
-    for (std::size_t i = 0; i < other.size(); ++i) {
-        const glm::dvec2 p = other[i], side = other[(i + 1) % other.size()] - p;
-        shared = cut(shared, glm::dvec2(side.y, -side.x), side.y * p.x - side.x * p.y);
-    }
-    return other.size() < 3 ? 0.0 : area_of(shared) / 4;
-}
-
 InfluenceRecord make_area(bool point, const glm::dvec3& origin, const glm::dvec3& forward, double half_width,
                           double half_height, double near, double far) {
     const glm::dvec3 f = glm::normalize(forward);

@@ -27,8 +27,6 @@ Polygon cut(const Polygon& polygon, const glm::dvec2& normal, double limit);
 Polygon projection(const InfluenceRecord& area, const Aabb& box, double near);
 /// Its area over the rectangle's.
 double reference_chance(const InfluenceRecord& area, const Aabb& box, bool culled, double near);
-/// The same of what two boxes share.
-double reference_overlap(const InfluenceRecord& area, const Aabb& a, const Aabb& b, bool culled);
 
 /// The record of an area with a forward direction that need not be normalised.
 InfluenceRecord make_area(bool point, const glm::dvec3& origin, const glm::dvec3& forward, double half_width,

@@ -185,6 +185,7 @@ TEST_CASE("areas: equal brute force on random triangles and instances") {
         const std::vector<InfluenceArea> areas = sample_areas(bounds);
         const std::vector<Ray> rays = area_rays(random, areas, bounds, ray_count(4000));
         const Searches found = check_areas(scene, areas, rays, BruteForce(scene, Levels::one).closest_hits(rays));
+        if (small_sizes()) continue; // too few rays to ask for any share of them
         CHECK(found.local > rays.size() / 20);
         CHECK(found.continued > rays.size() / 40);
     }
