@@ -105,6 +105,20 @@ INLINE void add_to_bins(Bins* bins, int4 place, float8 record) {
     add_to_bin(bins, 2 * BINS + (uint)place.z, record);
 }
 
+/// Adds bounds to those of the left (side 0) or right.
+INLINE void add_to_side(float8* left, float8* right, float8 bounds, uint side) {
+    const int8 goes_right = (int8)(side != 0 ? -1 : 0);
+    *left = LESSER(select(bounds, NO_BOUNDS, goes_right), *left);
+    *right = LESSER(select(NO_BOUNDS, bounds, goes_right), *right);
+}
+
+/// The bounds of what lies in the slices of an axis below a plane, and of the others.
+INLINE void side_bounds(const Bins* bins, uint axis, uint slice, uint slices, float8* left, float8* right) {
+    *left = *right = NO_BOUNDS;
+    for (uint s = 0; s < slice; ++s) *left = LESSER(bins->bounds[axis * BINS + s], *left);
+    for (uint s = slice; s < slices; ++s) *right = LESSER(bins->bounds[axis * BINS + s], *right);
+}
+
 /// The best plane so far: primitives in slices below `slice` of `axis` go left.
 typedef struct Plane {
     float cost;

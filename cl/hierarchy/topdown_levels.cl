@@ -89,7 +89,7 @@ void topdown_records(global const Aabb* boxes, global float8* records, uint coun
     }
 }
 
-/// Bounds of boxes [4 i] and of centres [4 i + 2] of chunk i, as topdown_scatter writes them when nothing goes right.
+/// Bounds of boxes [2 i] and of centres [2 i + 1] of chunk i.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_measure(global const LargeNode* nodes, global const uint* first_chunks, global const float8* records,
                      global const float* own_centres, global float8* chunk_bounds, uint node_count, uint chunk_count) {
@@ -102,14 +102,14 @@ void topdown_measure(global const LargeNode* nodes, global const uint* first_chu
         bounds = LESSER(records[p], bounds);
         centres = LESSER(point_bounds(centre_of(records[p], own_centres)), centres);
     }
-    chunk_bounds[4 * (size_t)i] = bounds;
-    chunk_bounds[4 * (size_t)i + 2] = centres;
+    chunk_bounds[2 * (size_t)i] = bounds;
+    chunk_bounds[2 * (size_t)i + 1] = centres;
 }
 
 /// Joins bounds `kind` of the chunks of a node.
 INLINE float8 join_chunks(global const float8* chunk_bounds, uint first, uint chunks, uint kind) {
     float8 bounds = NO_BOUNDS;
-    for (uint i = first; i < first + chunks; ++i) bounds = LESSER(chunk_bounds[4 * (size_t)i + kind], bounds);
+    for (uint i = first; i < first + chunks; ++i) bounds = LESSER(chunk_bounds[2 * (size_t)i + kind], bounds);
     return bounds;
 }
 
@@ -119,7 +119,7 @@ void topdown_roots(global LargeNode* nodes, global const float8* chunk_bounds, u
     if (i >= node_count) return;
     const uint first = nodes[i].first_chunk, chunks = chunks_of(nodes[i].count);
     vstore8(join_chunks(chunk_bounds, first, chunks, 0), 0, nodes[i].bounds);
-    vstore8(join_chunks(chunk_bounds, first, chunks, 2), 0, nodes[i].centres);
+    vstore8(join_chunks(chunk_bounds, first, chunks, 1), 0, nodes[i].centres);
 }
 
 /// Boxes and counts of the slices in chunk i, slot j of them at [i * SLOTS + j].
@@ -170,9 +170,10 @@ void topdown_merge(global const LargeNode* nodes, global const float8* chunk_bin
 }
 
 /// Chooses the plane of each node and writes the node; counts the kinds of its children and their chunks. A leaf goes on as a
-/// small node, whatever its size: it has nothing to decide any more.
+/// small node, whatever its size: it has nothing to decide any more. After: the first two slots of a node's bins are the bounds of
+/// its children.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void topdown_choose(global LargeNode* nodes, global const float8* node_bins, global const uint* node_counts,
+void topdown_choose(global LargeNode* nodes, global float8* node_bins, global const uint* node_counts,
                     global const Aabb* tree_bounds, global const InfluenceRecord* areas, global const uint* area_starts,
                     global const Thresholds* thresholds, global ulong* kinds, global uint* chunks, global uint* order,
                     global uint2* children, global uint* parents, global uint* far_ends, global uint* marks, uint count,
@@ -188,8 +189,8 @@ void topdown_choose(global LargeNode* nodes, global const float8* node_bins, glo
     Plane plane;
     no_plane(&plane);
     uint mark = MARK_LEAF;
+    Bins bins;
     if (!is_leaf(&rays, &limits, &question)) {
-        Bins bins;
         for (uint j = 0; j < SLOTS; ++j) {
             bins.bounds[j] = node_bins[i * (size_t)SLOTS + j];
             bins.counts[j] = node_counts[i * (size_t)SLOTS + j];
@@ -202,6 +203,10 @@ void topdown_choose(global LargeNode* nodes, global const float8* node_bins, glo
         chunks[i] = 0;
         return;
     }
+    float8 left, right;
+    side_bounds(&bins, plane.axis, plane.slice, question.slices, &left, &right);
+    node_bins[i * (size_t)SLOTS] = left;
+    node_bins[i * (size_t)SLOTS + 1] = right;
     const uint left_count = plane.left_count;
     const uint right_count = node.count - left_count;
     nodes[i].left_count = left_count;
@@ -220,8 +225,8 @@ INLINE uint lefts_before(global const LargeNode* node, global const uint* counts
     return before;
 }
 
-/// Moves the records of a chunk to where its node's children want them, in order. Bounds of the boxes that go left and right:
-/// chunk_bounds[4 i], [4 i + 1]; of their centres: [4 i + 2], [4 i + 3].
+/// Moves the records of a chunk to where its node's children want them, in order. Bounds of the centres that go left and
+/// right: chunk_bounds[2 i], [2 i + 1].
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_scatter(global const LargeNode* nodes, global const uint* first_chunks, global const float8* records,
                      global const float* own_centres, global const uint* chunk_counts, global float8* scattered,
@@ -238,25 +243,23 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     const uint middle = node->first + node->left_count;
     const uint lefts = lefts_before(node, chunk_counts + i * (size_t)SLOTS, &chunk);
     uint target[2] = {node->first + lefts, middle + (chunk.begin - node->first - lefts)};
-    float8 bounds[2] = {NO_BOUNDS, NO_BOUNDS}, centres[2] = {NO_BOUNDS, NO_BOUNDS};
+    float8 left = NO_BOUNDS, right = NO_BOUNDS; // in registers: an array would go through memory
     for (uint p = chunk.begin; p < chunk.end; ++p) {
         const float8 record = records[p];
         const float4 centre = centre_of(record, own_centres);
         const uint side = any(place_in(&grid, centre) >= limit) ? 1 : 0;
         scattered[target[side]++] = record;
-        bounds[side] = LESSER(record, bounds[side]);
-        centres[side] = LESSER(point_bounds(centre), centres[side]);
+        add_to_side(&left, &right, point_bounds(centre), side);
     }
-    for (uint side = 0; side < 2; ++side) {
-        chunk_bounds[4 * (size_t)i + side] = bounds[side];
-        chunk_bounds[4 * (size_t)i + 2 + side] = centres[side];
-    }
+    chunk_bounds[2 * (size_t)i] = left;
+    chunk_bounds[2 * (size_t)i + 1] = right;
 }
 
 /// Writes the children of each node as large or small nodes of the next level, and single ones as leaves. `kinds` and `chunks` are
 /// inclusive scans of what topdown_choose counted, small nodes come after the `small_before` of other levels.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void topdown_emit(global const LargeNode* nodes, global const float8* scattered, global const float8* chunk_bounds,
+void topdown_emit(global const LargeNode* nodes, global const float8* node_bins, global const float8* scattered,
+                  global const float8* chunk_bounds,
                   global const ulong* kinds, global const uint* chunks, global LargeNode* next, global uint* next_chunks,
                   global SmallNode* small_nodes, global uint* order, uint node_count, uint small_before, uint parity) {
     const uint i = (uint)get_global_id(0);
@@ -276,8 +279,8 @@ void topdown_emit(global const LargeNode* nodes, global const float8* scattered,
         const uint flags = side == 0 ? NODE_LEFT : 0;
         if (count > LARGE) {
             global LargeNode* child = next + large++;
-            vstore8(join_chunks(chunk_bounds, node.first_chunk, node_chunks, side), 0, child->bounds);
-            vstore8(join_chunks(chunk_bounds, node.first_chunk, node_chunks, 2 + side), 0, child->centres);
+            vstore8(node_bins[i * (size_t)SLOTS + side], 0, child->bounds);
+            vstore8(join_chunks(chunk_bounds, node.first_chunk, node_chunks, side), 0, child->centres);
             child->first = first;
             child->count = count;
             child->level = node.level + 1;

@@ -131,7 +131,7 @@ Growth::Growth(Device& device, BufferView<const float> centres, BufferView<const
     chunks_ = make_scratch<std::uint32_t>(device, kinds_.size(), "chunks of nodes");
     chunk_bins_ = make_scratch<cl_float8>(device, most.chunks * slots_, "slices of chunks");
     chunk_counts_ = make_scratch<std::uint32_t>(device, most.chunks * slots_, "counts of chunks");
-    chunk_bounds_ = make_scratch<cl_float8>(device, most.chunks * 4, "bounds of chunks");
+    chunk_bounds_ = make_scratch<cl_float8>(device, most.chunks * 2, "bounds of chunks");
     node_bins_ = make_scratch<cl_float8>(device, most.nodes * slots_, "slices of nodes");
     node_counts_ = make_scratch<std::uint32_t>(device, most.nodes * slots_, "counts of nodes");
 }
@@ -178,7 +178,7 @@ void Growth::split_level(std::uint32_t parity) {
     launch(device_, kernel("topdown_scatter"), "scatter", chunks, level, firsts, from, centres_, chunk_counts_, to,
            chunk_bounds_, nodes, chunks);
     const std::uint32_t small_nodes = count_next(nodes);
-    launch(device_, kernel("topdown_emit"), "emit", nodes, level, to, chunk_bounds_, kinds_, chunks_, next,
+    launch(device_, kernel("topdown_emit"), "emit", nodes, level, node_bins_, to, chunk_bounds_, kinds_, chunks_, next,
            first_chunks_[1 - parity], small_nodes_, topology_.order, nodes, small_count_,
            std::uint32_t{parity ? NODE_OTHER : 0u});
     small_count_ += small_nodes;
@@ -241,7 +241,7 @@ TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives) {
     const std::uint64_t records = sizeof(cl_float8) * primitives;
     const std::uint64_t bins_of_chunks = sizeof(cl_float8) * 3 * bins * most.chunks;
     const std::uint64_t slots = (sizeof(cl_float8) + 4) * 3 * bins * (most.chunks + most.nodes);
-    const std::uint64_t nodes = (2 * (sizeof(LargeNode) + 4) + 12) * most.nodes + 4 * sizeof(cl_float8) * most.chunks;
+    const std::uint64_t nodes = (2 * (sizeof(LargeNode) + 4) + 12) * most.nodes + 2 * sizeof(cl_float8) * most.chunks;
     return {2 * records + slots + nodes + (sizeof(SmallNode) / 2 + 4) * primitives, std::max(records, bins_of_chunks)};
 }
 
