@@ -42,7 +42,8 @@ INLINE bool apart(const Pair* pair, float3 axis) {
 INLINE bool apart_by_edges(const Pair* pair, const float3* edges, float3 edge) {
     for (int i = 0; i < 3; ++i) {
         const float3 a = edges[i];
-        if (apart(pair, (float3)(a.y * edge.z - a.z * edge.y, a.z * edge.x - a.x * edge.z, a.x * edge.y - a.y * edge.x))) return true;
+        if (apart(pair, (float3)(a.y * edge.z - a.z * edge.y, a.z * edge.x - a.x * edge.z, a.x * edge.y - a.y * edge.x)))
+            return true;
     }
     return false;
 }

@@ -220,7 +220,8 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void write_blocks(global const uint* leaf_sources, global const uint* far_ends, global const uint* order,
                   global const uint* offsets, global const uint* names, global const float* positions,
-                  global const uint* triangles, global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves, uint slice) {
+                  global const uint* triangles, global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves,
+                  uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, leaves);
     for (uint i = begin; i < end; ++i) {

@@ -6,7 +6,6 @@
 //   axes     void NAME(const Distribution* d, Box node, uint level, float quality[3])    of planes across an axis: [0, 1]
 //   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)   whether a node is a leaf
 //
-// BLOCK    primitives that a leaf tests at once
 // MEASURE  the strategy's measure
 #ifndef BOXWOOD_HIERARCHY_STRATEGIES_H
 #define BOXWOOD_HIERARCHY_STRATEGIES_H
@@ -29,17 +28,9 @@ typedef struct NodeState {
     float root_chance; ///< That of the whole tree.
 } NodeState;
 
-/// What testing the primitives costs, once for each block of them.
-inline float block_cost(uint count) { return (float)((count + (BLOCK - 1)) / BLOCK); }
-
+/// What the primitives on both sides cost. By their number, though a leaf may test several at once: numbers rounded up to that keep
+/// planes away from where boxes are smallest.
 inline float measured_cost(const Distribution* d, const Pair* pair) {
-    (void)d;
-    return pair->left_chance * block_cost(pair->left_count) + pair->right_chance * block_cost(pair->right_count);
-}
-
-/// By the number of primitives and not of their blocks. High up the two agree; further down rounded counts keep planes apart
-/// from where boxes are smallest.
-inline float counted_cost(const Distribution* d, const Pair* pair) {
     (void)d;
     return pair->left_chance * (float)pair->left_count + pair->right_chance * (float)pair->right_count;
 }
@@ -98,7 +89,7 @@ inline void all_axes(const Distribution* d, Box node, uint level, float quality[
 /// The paper's 8.1.7.
 inline bool threshold_stop(const Distribution* d, const Thresholds* t, const NodeState* s) {
     (void)d;
-    return s->count <= t->max_leaf_primitives || s->chance * block_cost(s->count) < t->max_leaf_cost ||
+    return s->count <= t->max_leaf_primitives || s->chance * (float)s->count < t->max_leaf_cost ||
            s->chance < t->max_leaf_area * s->root_chance || s->chance < t->max_leaf_hit_probability;
 }
 
@@ -112,15 +103,15 @@ inline bool never(const Distribution* d, const Thresholds* t, const NodeState* s
 // The caller's own functions; they may use all of the above.
 #include "runtime/inserted.h"
 
-/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both children
-/// share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
+/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both
+/// children share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
 inline float overlap_cost(const Distribution* d, const Pair* pair) {
     const float cost = measured_cost(d, pair);
     const Box shared = {(float4)(GREATER(pair->left.a.xyz, pair->right.a.xyz), fmin(pair->left.a.w, pair->right.a.w)),
                         LESSER(pair->left.b, pair->right.b)};
     const float3 extent = extent_of(shared);
     if (!(extent.x >= 0.0f && extent.y >= 0.0f && extent.z >= 0.0f)) return cost;
-    return cost + 0.25f * MEASURE(d, shared) * block_cost(min(pair->left_count, pair->right_count));
+    return cost + 0.25f * MEASURE(d, shared) * (float)min(pair->left_count, pair->right_count);
 }
 
 #endif

@@ -5,10 +5,11 @@
 
 BOXWOOD_SHARED_BEGIN
 
-/// An influence area as the device sees it. Rays run along its lines either way: shadow rays run towards a light. A point p has the coordinates x, y, z = dot(p - origin, right | up | forward).
-/// Plane: rays leave the rectangle |x| <= half_width, |y| <= half_height, z = 0 along forward; the region is
-/// the box over it up to z = far. Point: rays leave the rectangle |x| <= near * half_width, |y| <= near * half_height, z = near in
-/// the direction from the origin; the region is the frustum |x| <= z * half_width, |y| <= z * half_height, near <= z <= far.
+/// An influence area as the device sees it. Rays run along its lines either way: shadow rays run towards a light. A point p has
+/// the coordinates x, y, z = dot(p - origin, right | up | forward). Plane: rays leave the rectangle |x| <= half_width, |y| <=
+/// half_height, z = 0 along forward; the region is the box over it up to z = far. Point: rays leave the rectangle |x| <= near *
+/// half_width, |y| <= near * half_height, z = near in the direction from the origin; the region is the frustum |x| <= z *
+/// half_width, |y| <= z * half_height, near <= z <= far.
 typedef struct InfluenceRecord {
     float origin[3];   ///< Plane: centre of the rectangle. Point: the eye.
     uint point;        ///< 1: point area; 0: plane area.

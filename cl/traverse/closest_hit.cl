@@ -25,7 +25,8 @@
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
     global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
     global const InstanceRecord* instances, global const LocalArea* areas, global const AreaNode* area_nodes,
-    global const uint* area_items, global const uint* first_triangles, uint instance_count, global const Ray* rays, uint ray_count, uint slice, global Hit* hits, global RayStatistics* statistics) {
+    global const uint* area_items, global const uint* first_triangles, uint instance_count,
+    global const Ray* rays, uint ray_count, uint slice, global Hit* hits, global RayStatistics* statistics) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
     const Arrays arrays = {nodes, (global const char*)leaves, sizeof(leaf_t)};

@@ -17,7 +17,8 @@
     !defined(AREAS) || !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
 #error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, AREAS, STATISTICS, STACK_SIZE and GROUP_SIZE"
 #endif
-#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || (AREAS && (LEVELS != 1 || ORIENTED)) || STACK_SIZE < 1
+#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || \
+    (AREAS && (LEVELS != 1 || ORIENTED)) || STACK_SIZE < 1
 #error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only one level can be flattened, only one level of axis-aligned boxes has areas, and the stack is not empty"
 #endif
 

@@ -25,7 +25,6 @@ TopDownOptions topdown_options(Builder builder, std::uint32_t block) {
     options.stop = "never";
     switch (builder) {
     case Builder::sah:
-        options.cost = "counted_cost";
         options.axes = "all_axes";
         break;
     case Builder::midpoint:

@@ -239,19 +239,19 @@ TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
 
 TEST_CASE("topdown: strategies in OpenCL of one's own") {
     TopDownOptions options = quality_options(1);
-    options.source = "inline float width(const Distribution* d, Box box) {\n"
-                     "    return extent_of(box).x / extent_of(d->root).x;\n"
-                     "}\n"
-                     "inline float squares(const Distribution* d, const Pair* pair) {\n"
-                     "    return pair->left_chance * block_cost(pair->left_count) + 2.0f * pair->right_chance * "
-                     "block_cost(pair->right_count);\n"
-                     "}\n"
-                     "inline void last_axis(const Distribution* d, Box node, uint level, float quality[3]) {\n"
-                     "    quality[0] = 0.0f; quality[1] = 0.5f; quality[2] = 1.0f;\n"
-                     "}\n"
-                     "inline bool at_seven(const Distribution* d, const Thresholds* t, const NodeState* s) {\n"
-                     "    return s->count <= 7;\n"
-                     "}\n";
+    options.source =
+        "inline float width(const Distribution* d, Box box) {\n"
+        "    return extent_of(box).x / extent_of(d->root).x;\n"
+        "}\n"
+        "inline float squares(const Distribution* d, const Pair* pair) {\n"
+        "    return pair->left_chance * pair->left_count + 2.0f * pair->right_chance * pair->right_count;\n"
+        "}\n"
+        "inline void last_axis(const Distribution* d, Box node, uint level, float quality[3]) {\n"
+        "    quality[0] = 0.0f; quality[1] = 0.5f; quality[2] = 1.0f;\n"
+        "}\n"
+        "inline bool at_seven(const Distribution* d, const Thresholds* t, const NodeState* s) {\n"
+        "    return s->count <= 7;\n"
+        "}\n";
     options.measure = "width";
     options.axes = "last_axis";
     options.stop = "at_seven";

@@ -58,7 +58,6 @@ struct Recursion {
         for (const std::uint32_t i : list) grow(box, boxes[i]);
         return box;
     }
-    float blocks(std::size_t count) const { return static_cast<float>((count + options.block - 1) / options.block); }
 
     /// The slice of every primitive along an axis; nothing for an axis without extent.
     std::vector<std::uint32_t> slices(const List& list, int axis, std::uint32_t count) const {
@@ -90,7 +89,7 @@ struct Recursion {
             for (std::size_t i = 0; i < list.size(); ++i) (place[i] < plane ? cut.left : cut.right).push_back(list[i]);
             if (cut.left.empty() || cut.right.empty()) continue;
             const float left = measure(root, box_of(cut.left)), right = measure(root, box_of(cut.right));
-            cut.cost = left * blocks(cut.left.size()) + right * blocks(cut.right.size());
+            cut.cost = left * static_cast<float>(cut.left.size()) + right * static_cast<float>(cut.right.size());
             cut.larger = std::max(cut.left.size(), cut.right.size());
             cut.chances = left + right;
             if (!best || cut.cost < best->cost || (cut.cost == best->cost && cut.larger < best->larger))
@@ -145,7 +144,8 @@ struct Recursion {
         if (list.size() <= options.block || level >= options.max_levels) return true;
         if (!rules.thresholds) return false;
         const float chance = rules.measure(root, box_of(list));
-        return list.size() <= options.max_leaf_primitives || chance * blocks(list.size()) < options.max_leaf_cost ||
+        return list.size() <= options.max_leaf_primitives ||
+               chance * static_cast<float>(list.size()) < options.max_leaf_cost ||
                chance < options.max_leaf_area * rules.measure(root, root) || chance < options.max_leaf_hit_probability;
     }
 
