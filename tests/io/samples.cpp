@@ -255,7 +255,6 @@ void add_sample_area(TreeImage& tree) {
     region.right[0] = region.up[1] = region.forward[2] = 1.0f;
     region.half_width = region.half_height = region.far = 2.0f;
     const Aabb box{{-2, -2, 0}, {2, 2, 2}};
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     const Aabb none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     std::uint32_t root = 0;
     if (tree.layout == Layout::binary) {
