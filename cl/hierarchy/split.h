@@ -94,6 +94,16 @@ INLINE void clear_bins(Bins* bins, uint slices) {
     }
 }
 
+/// Adds the bins of `other`.
+INLINE void join_bins(Bins* bins, const Bins* other, uint slices) {
+    for (uint k = 0; k < 3; ++k) {
+        for (uint s = k * BINS; s < k * BINS + slices; ++s) {
+            bins->bounds[s] = LESSER(other->bounds[s], bins->bounds[s]);
+            bins->counts[s] += other->counts[s];
+        }
+    }
+}
+
 INLINE void add_to_bin(Bins* bins, uint i, float8 record) {
     bins->bounds[i] = LESSER(record, bins->bounds[i]);
     ++bins->counts[i];
@@ -105,7 +115,7 @@ INLINE void add_to_bins(Bins* bins, int4 place, float8 record) {
     add_to_bin(bins, 2 * BINS + (uint)place.z, record);
 }
 
-/// Adds bounds to those of the left (side 0) or right.
+/// Adds bounds to those of the left (side 0) or right, both in registers: an array would go through memory.
 INLINE void add_to_side(float8* left, float8* right, float8 bounds, uint side) {
     const int8 goes_right = (int8)(side != 0 ? -1 : 0);
     *left = LESSER(select(bounds, NO_BOUNDS, goes_right), *left);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the top-down builder share: how nodes are written.
+// What the kernels of the top-down builder share: how nodes are written, and records put into bins.
 //
 // OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
 #ifndef BOXWOOD_HIERARCHY_TOPDOWN_H
@@ -41,6 +41,30 @@ INLINE float4 centre_of(float8 record, global const float* centres) {
 #else
     return middle_of(record);
 #endif
+}
+
+/// Counts below which one set of bins is as fast as two.
+#define FEW_RECORDS 64
+
+/// The bins of the records [begin, end), of at most `slices` slices along each axis. Two sets take turns: a record whose
+/// neighbour is in the same slice need not wait for it.
+INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* records, global const float* own_centres, uint begin,
+                        uint end, uint slices) {
+    clear_bins(bins, slices);
+    uint i = begin;
+    if (end - begin > FEW_RECORDS) {
+        Bins turn;
+        clear_bins(&turn, slices);
+        for (; i + 1 < end; i += 2) {
+            const float8 one = records[i], two = records[i + 1];
+            const int4 place_one = place_in(grid, centre_of(one, own_centres));
+            const int4 place_two = place_in(grid, centre_of(two, own_centres));
+            add_to_bins(bins, place_one, one);
+            add_to_bins(&turn, place_two, two);
+        }
+        join_bins(bins, &turn, slices);
+    }
+    for (; i < end; ++i) add_to_bins(bins, place_in(grid, centre_of(records[i], own_centres)), records[i]);
 }
 
 #endif

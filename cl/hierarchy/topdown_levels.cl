@@ -134,11 +134,7 @@ void topdown_bin(global const LargeNode* nodes, global const uint* first_chunks,
     Grid grid;
     grid_of(&grid, nodes + chunk.node);
     Bins bins;
-    clear_bins(&bins, BINS);
-    for (uint p = chunk.begin; p < chunk.end; ++p) {
-        const float8 record = records[p];
-        add_to_bins(&bins, place_in(&grid, centre_of(record, own_centres)), record);
-    }
+    bin_records(&bins, &grid, records, own_centres, chunk.begin, chunk.end, BINS);
     for (uint j = 0; j < SLOTS; ++j) {
         chunk_bins[i * (size_t)SLOTS + j] = bins.bounds[j];
         chunk_counts[i * (size_t)SLOTS + j] = bins.counts[j];
@@ -242,13 +238,15 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     const int4 limit = plane_at(node->cut & 3, node->cut >> 2);
     const uint middle = node->first + node->left_count;
     const uint lefts = lefts_before(node, chunk_counts + i * (size_t)SLOTS, &chunk);
-    uint target[2] = {node->first + lefts, middle + (chunk.begin - node->first - lefts)};
-    float8 left = NO_BOUNDS, right = NO_BOUNDS; // in registers: an array would go through memory
+    uint next_left = node->first + lefts, next_right = middle + (chunk.begin - node->first - lefts);
+    float8 left = NO_BOUNDS, right = NO_BOUNDS;
     for (uint p = chunk.begin; p < chunk.end; ++p) {
         const float8 record = records[p];
         const float4 centre = centre_of(record, own_centres);
         const uint side = any(place_in(&grid, centre) >= limit) ? 1 : 0;
-        scattered[target[side]++] = record;
+        scattered[side == 0 ? next_left : next_right] = record;
+        next_left += 1 - side;
+        next_right += side;
         add_to_side(&left, &right, point_bounds(centre), side);
     }
     chunk_bounds[2 * (size_t)i] = left;

@@ -34,27 +34,29 @@ INLINE void measure_node(const Work* w, Node* node) {
     node->centres = centres;
 }
 
-/// Moves the records into the other array, those right of the plane behind the others, in order.
-INLINE void part(const Work* w, const Node* node, const Grid* grid, const Plane* plane, Node* children) {
+/// Moves the records into the other array, those right of the plane behind the others, in order. After: the children's bounds.
+INLINE void part(const Work* w, const Node* node, const Grid* grid, const Bins* bins, uint slices, const Plane* plane,
+                 Node* children) {
     const bool other = node->flags & NODE_OTHER;
     global const float8* from = w->records[other ? 1 : 0];
     global float8* to = w->records[other ? 0 : 1];
     const int4 limit = plane_at(plane->axis, plane->slice);
-    float8 bounds[2] = {NO_BOUNDS, NO_BOUNDS}, centres[2] = {NO_BOUNDS, NO_BOUNDS};
-    uint target[2] = {node->first, node->first + plane->left_count};
+    uint next_left = node->first, next_right = node->first + plane->left_count;
+    float8 left = NO_BOUNDS, right = NO_BOUNDS;
     for (uint i = node->first; i < node->first + node->count; ++i) {
         const float8 record = from[i];
         const float4 centre = centre_of(record, w->centres);
         const uint side = any(place_in(grid, centre) >= limit) ? 1 : 0;
-        to[target[side]++] = record;
-        bounds[side] = LESSER(record, bounds[side]);
-        centres[side] = LESSER(point_bounds(centre), centres[side]);
+        to[side == 0 ? next_left : next_right] = record;
+        next_left += 1 - side;
+        next_right += side;
+        add_to_side(&left, &right, point_bounds(centre), side);
     }
-    for (uint side = 0; side < 2; ++side) {
-        children[side].bounds = bounds[side];
-        children[side].centres = centres[side];
-        children[side].flags ^= NODE_OTHER;
-    }
+    children[0].centres = left;
+    children[1].centres = right;
+    side_bounds(bins, plane->axis, plane->slice, slices, &children[0].bounds, &children[1].bounds);
+    children[0].flags ^= NODE_OTHER;
+    children[1].flags ^= NODE_OTHER;
 }
 
 /// Splits a node of two primitives or more in two.
@@ -63,17 +65,13 @@ INLINE void split_node(const Work* w, const Node* node, Node* children) {
     no_plane(&plane);
     uint mark = MARK_LEAF;
     Grid grid;
+    Bins bins;
     const Question question = {node->bounds, node->count, node->level, slices_of(node->count),
                                node->flags & NODE_LEAF ? 0.0f : chance_of(w->rays, node->bounds, false)};
     if (!(node->flags & NODE_LEAF) && !is_leaf(w->rays, w->thresholds, &question)) {
         global const float8* records = w->records[node->flags & NODE_OTHER ? 1 : 0];
-        Bins bins;
-        clear_bins(&bins, question.slices);
         make_grid(&grid, node->bounds, node->centres, node->count);
-        for (uint i = node->first; i < node->first + node->count; ++i) {
-            const float8 record = records[i];
-            add_to_bins(&bins, place_in(&grid, centre_of(record, w->centres)), record);
-        }
+        bin_records(&bins, &grid, records, w->centres, node->first, node->first + node->count, question.slices);
         mark = choose_plane(w->rays, w->thresholds, &bins, &question, &plane);
     }
     const bool leaf = plane.axis == NO_AXIS; // also when no plane parts it
@@ -87,7 +85,7 @@ INLINE void split_node(const Work* w, const Node* node, Node* children) {
     children[1].flags = kept;
     children[0].level = children[1].level = node->level + 1;
     write_node(w->nodes, node->first, node->count, node->flags, left_count, leaf ? MARK_LEAF : mark);
-    if (!leaf) part(w, node, &grid, &plane, children);
+    if (!leaf) part(w, node, &grid, &bins, question.slices, &plane, children);
 }
 
 INLINE void build_subtree(const Work* w, Node root) {
