@@ -4,18 +4,18 @@
 //
 // BINS                             most slices along an axis
 // BIN_BOX                          1: slices of the node's box; 0: of the box of its primitives' centres, fewer for small nodes
-// BLOCK                            primitives that a leaf tests at once
-// MEASURE, COST, AXES, STOP, FALLBACK_MEASURE, FALLBACK_AXES   functions of the strategy
+// COST, AXES, STOP, FALLBACK_MEASURE, FALLBACK_AXES   functions of the strategy
+// Others: hierarchy/strategies.h.
 #ifndef BOXWOOD_HIERARCHY_SPLIT_H
 #define BOXWOOD_HIERARCHY_SPLIT_H
 #include "hierarchy/strategies.h"
 #include "runtime/inline.h"
 
-#if !defined(BINS) || !defined(BIN_BOX) || !defined(BLOCK)
-#error "define BINS, BIN_BOX and BLOCK"
+#if !defined(BINS) || !defined(BIN_BOX)
+#error "define BINS and BIN_BOX"
 #endif
-#if !defined(MEASURE) || !defined(COST) || !defined(AXES) || !defined(STOP)
-#error "define MEASURE, COST, AXES and STOP"
+#if !defined(COST) || !defined(AXES) || !defined(STOP)
+#error "define COST, AXES and STOP"
 #endif
 #if !defined(FALLBACK_MEASURE) || !defined(FALLBACK_AXES)
 #error "define FALLBACK_MEASURE and FALLBACK_AXES"

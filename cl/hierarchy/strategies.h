@@ -7,10 +7,15 @@
 //   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)   whether a node is a leaf
 //
 // MEASURE  the strategy's measure
+// BLOCK    primitives that a leaf tests at once
 #ifndef BOXWOOD_HIERARCHY_STRATEGIES_H
 #define BOXWOOD_HIERARCHY_STRATEGIES_H
 #include "hierarchy/distribution.h"
 #include "shared/topdown.h"
+
+#if !defined(MEASURE) || !defined(BLOCK)
+#error "define MEASURE and BLOCK"
+#endif
 
 /// Two children that a node may get.
 typedef struct Pair {
@@ -28,11 +33,16 @@ typedef struct NodeState {
     float root_chance; ///< That of the whole tree.
 } NodeState;
 
-/// What the primitives on both sides cost. By their number, though a leaf may test several at once: numbers rounded up to that keep
-/// planes away from where boxes are smallest.
+/// Testing a leaf costs the same however full it is, so in nodes of few leaves the primitives count as the leaves that hold them. In
+/// larger ones that would keep planes away from where boxes are smallest.
+inline float rounded_count(uint count) {
+    return (float)(count <= 4 * BLOCK ? (count + BLOCK - 1) / BLOCK * BLOCK : count);
+}
+
+/// What the primitives on both sides cost.
 inline float measured_cost(const Distribution* d, const Pair* pair) {
     (void)d;
-    return pair->left_chance * (float)pair->left_count + pair->right_chance * (float)pair->right_count;
+    return pair->left_chance * rounded_count(pair->left_count) + pair->right_chance * rounded_count(pair->right_count);
 }
 
 /// Planes across the longer extents are the better ones; a point has no better axis.

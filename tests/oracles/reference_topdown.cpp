@@ -89,12 +89,19 @@ struct Recursion {
             for (std::size_t i = 0; i < list.size(); ++i) (place[i] < plane ? cut.left : cut.right).push_back(list[i]);
             if (cut.left.empty() || cut.right.empty()) continue;
             const float left = measure(root, box_of(cut.left)), right = measure(root, box_of(cut.right));
-            cut.cost = left * static_cast<float>(cut.left.size()) + right * static_cast<float>(cut.right.size());
+            cut.cost = left * rounded(cut.left.size()) + right * rounded(cut.right.size());
             cut.larger = std::max(cut.left.size(), cut.right.size());
             cut.chances = left + right;
             if (!best || cut.cost < best->cost || (cut.cost == best->cost && cut.larger < best->larger))
                 best = std::move(cut);
         }
+    }
+
+    /// Of four leaves or fewer, as many as those leaves can hold.
+    float rounded(std::size_t size) const {
+        const std::size_t block = options.block;
+        const std::size_t leaves = size / block + (size % block != 0 ? 1 : 0);
+        return static_cast<float>(leaves <= 4 ? leaves * block : size);
     }
 
     static std::array<int, 3> by_quality(const std::array<float, 3>& quality) {
