@@ -11,11 +11,12 @@
 /// True once nothing can change the answer any more.
 INLINE bool is_settled(const Walk* walk) { return ANY_HIT && walk->primitive != BOXWOOD_NONE; }
 
-/// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit; BOXWOOD_NONE when none is left.
+/// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit, if the closest is asked for; BOXWOOD_NONE
+/// when none is left.
 INLINE uint next_reference(Walk* walk, const entry_t* stack, uint bottom) {
     while (walk->top > bottom) {
         const entry_t entry = stack[--walk->top];
-        if (ENTRY_DISTANCE(entry) <= walk->t_max) return (uint)entry;
+        if (ANY_HIT || ENTRY_DISTANCE(entry) <= walk->t_max) return (uint)entry;
     }
     return BOXWOOD_NONE;
 }

@@ -17,13 +17,14 @@
 
 #if LAYOUT == 8
 
-/// The entry of child `lane`, which will be visited soon: its memory is asked for now.
+/// The entry of child `lane`, which will be visited soon: its memory is asked for now. Where any hit will do leaves come first,
+/// as they may end the search.
 INLINE entry_t child_entry(global const node_t* node, const float* distance, uint lane, const Arrays* arrays) {
     const uint reference = node->child[lane];
+    const bool is_leaf = (reference & BOXWOOD_LEAF) != 0;
     const size_t leaf = (size_t)(reference & ~BOXWOOD_LEAF) * arrays->leaf_bytes;
-    prefetch_256((reference & BOXWOOD_LEAF) != 0 ? arrays->leaves + leaf
-                                                 : (global const char*)&arrays->nodes[reference]);
-    return ENTRY_OF(distance[lane], reference);
+    prefetch_256(is_leaf ? arrays->leaves + leaf : (global const char*)&arrays->nodes[reference]);
+    return ENTRY_OF(ANY_HIT && is_leaf ? 0.0f : distance[lane], reference);
 }
 
 /// The nearest child met, the others left on the stack from far to near. BOXWOOD_NONE when none is met.
