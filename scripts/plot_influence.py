@@ -5,11 +5,12 @@
     scripts/plot_influence.py study.json -o influence.png
 
 Left: over all boxes that the rays meet; hollow marks are the published ratios. Right: in search of the closest hit. One row of marks
-for each kind of area and orientation, geometric means. Needs matplotlib (Debian: python3-matplotlib; scripts/setup.sh --checks
+for each kind of area and orientation: geometric means. Needs matplotlib (Debian: python3-matplotlib; scripts/setup.sh --checks
 installs it).
 """
 import argparse
 import json
+import math
 import pathlib
 import sys
 
@@ -24,14 +25,19 @@ STYLES = [("#000000", "s"), ("#0072B2", "o"), ("#D55E00", "v"), ("#CC79A7", "^")
 
 
 def read_groups(file):
-    """The groups. Ends the program where the file is no report of the study."""
+    """The groups and the builders. Ends the program where the file is no report of the study."""
     try:
         groups = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))["groups"]
         for group in groups.values():
-            group["geomean"], group["geomean_to_hit"], group["published_geomean"]
-        return groups
+            for key in ("geomean", "geomean_to_hit", "published_geomean"):
+                for ratio in group[key].values():
+                    math.log(ratio)
+        builders = list(groups["all"]["geomean"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         sys.exit(f"plot_influence: {file}: not a report of boxwood study influence ({error!r})")
+    if not builders:
+        sys.exit(f"plot_influence: {file}: has no ratios to plot")
+    return groups, builders
 
 
 def plot(axes, groups, builders, key, title):
@@ -59,8 +65,7 @@ def main():
     parser.add_argument("report", help="report of boxwood study influence (JSON)")
     parser.add_argument("-o", "--output", required=True, help="picture to write; its ending says the kind (.png, .svg, .pdf)")
     arguments = parser.parse_args()
-    groups = read_groups(arguments.report)
-    builders = list(groups["all"]["geomean"])
+    groups, builders = read_groups(arguments.report)
 
     height = 1.8 + 0.36 * len(groups)
     figure, (left, right) = plt.subplots(1, 2, figsize=(12, height), sharey=True, layout="constrained")

@@ -12,7 +12,7 @@ typedef struct LocalArea {
     InfluenceRecord region; ///< Of a point area from the eye on: near is 0.
     Aabb box;               ///< Holds the region, rounding included.
     uint root;              ///< Of its tree, in the same node array as the global tree.
-    uint reserved;          ///< Zero.
+    float near;             ///< Where a point area's own rays begin, which its builder knew; 0 for plane areas.
 } LocalArea;
 BOXWOOD_SHARED_SIZE(LocalArea, 112)
 

@@ -6,6 +6,7 @@
 
 #include "boxwood/analysis.hpp"
 #include "boxwood/influence.hpp"
+#include "cli/areas.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
@@ -27,24 +28,28 @@ struct Arguments {
 /// One tree and what was found of it.
 struct Analysed {
     AnalysisTree tree;
+    bool by_areas = false; ///< Measured by the rays of areas too.
     std::vector<NodeMeasures> measures;
     Analysis analysis;
 };
 
-/// Areas are in world space, as the first tree is; the trees of meshes below a top level have no measures by areas.
+/// The first tree is measured by `areas`, local trees each by their own. Areas are in world space; the trees of meshes below a
+/// top level, which are not, have no measures by areas.
 std::vector<Analysed> analyse(const TreeImage& image, const Scene& scene, std::span<const InfluenceRecord> areas) {
+    const std::vector<InfluenceRecord> own = stored_areas(image);
     std::vector<Analysed> result;
     for (AnalysisTree& tree : analysis_trees(image, scene)) {
-        std::vector<NodeMeasures> measures =
-            measure_nodes(tree, result.empty() ? areas : std::span<const InfluenceRecord>{});
+        const std::size_t i = result.size();
+        std::span<const InfluenceRecord> rays;
+        if (i == 0)
+            rays = areas;
+        else if (i <= own.size())
+            rays = std::span(own).subspan(i - 1, 1);
+        std::vector<NodeMeasures> measures = measure_nodes(tree, rays);
         Analysis analysis = analysis_of(tree, measures);
-        result.push_back({std::move(tree), std::move(measures), std::move(analysis)});
+        result.push_back({std::move(tree), !rays.empty(), std::move(measures), std::move(analysis)});
     }
     return result;
-}
-
-std::string level_word(std::uint32_t level) {
-    return level == overlap_levels[std::size(overlap_levels) - 1] ? "all" : std::to_string(level);
 }
 
 Json figures_report(const LevelFigures& figures, bool areas) {
@@ -57,20 +62,20 @@ Json figures_report(const LevelFigures& figures, bool areas) {
     return json;
 }
 
-Json tree_report(const Analysed& each, bool areas) {
+Json tree_report(const Analysed& each) {
     const Analysis& analysis = each.analysis;
     Json json = {{"name", each.tree.name}};
-    json.update(figures_report(analysis.all, areas));
+    json.update(figures_report(analysis.all, each.by_areas));
     json["primitives"] = analysis.primitives;
     json["depth"] = analysis.depth();
     json["leaves_by_size"] = analysis.leaves_by_size;
-    if (areas)
+    if (each.by_areas)
         for (const std::uint32_t level : overlap_levels) {
             const LevelFigures figures = analysis.down_to(level);
             json["overlap_to_level"][level_word(level)] = {{"all", figures.overlap_ratio()},
                                                            {"culled", figures.overlap_ratio_culled()}};
         }
-    for (const LevelFigures& level : analysis.levels) json["levels"].push_back(figures_report(level, areas));
+    for (const LevelFigures& level : analysis.levels) json["levels"].push_back(figures_report(level, each.by_areas));
     return json;
 }
 
@@ -92,7 +97,7 @@ Json node_report(const AnalysisNode& node, const NodeMeasures& measures, bool ar
 }
 
 /// {"trees": [{"name", "nodes": [...]}]}, a node a line.
-void save_nodes(const std::filesystem::path& file, const std::vector<Analysed>& trees, bool areas) {
+void save_nodes(const std::filesystem::path& file, const std::vector<Analysed>& trees) {
     if (file.empty()) return;
     AtomicFile output(file);
     std::ostream& stream = output.stream();
@@ -103,20 +108,20 @@ void save_nodes(const std::filesystem::path& file, const std::vector<Analysed>& 
                << ", \"nodes\": [";
         for (std::size_t i = 0; i < trees[t].measures.size(); ++i)
             stream << (i ? ",\n" : "\n")
-                   << node_report(trees[t].tree.nodes[i], trees[t].measures[i], areas && t == 0).dump();
+                   << node_report(trees[t].tree.nodes[i], trees[t].measures[i], trees[t].by_areas).dump();
         stream << "]}";
     }
     stream << "]}\n";
     output.commit();
 }
 
-void print_trees(const std::vector<Analysed>& trees, bool areas) {
+void print_trees(const std::vector<Analysed>& trees) {
     constexpr std::size_t most = 12;
     Table table;
     table.add({"tree", "nodes", "leaves", "primitives", "depth", "SAH cost", "PAH cost", "PAH, culled"});
     for (std::size_t i = 0; i < std::min(most, trees.size()); ++i) {
         const Analysis& analysis = trees[i].analysis;
-        const bool seen = areas && i == 0;
+        const bool seen = trees[i].by_areas;
         table.add({trees[i].tree.name, grouped(analysis.all.nodes), grouped(analysis.all.leaves),
                    grouped(analysis.primitives), std::to_string(analysis.depth()), fixed(analysis.all.sah, 2),
                    seen ? fixed(analysis.all.pah, 2) : "-", seen ? fixed(analysis.all.pah_culled, 2) : "-"});
@@ -126,8 +131,9 @@ void print_trees(const std::vector<Analysed>& trees, bool areas) {
     if (trees.size() > most) std::cout << "and " << trees.size() - most << " more, all in the report\n";
 }
 
-void print_levels(const Analysed& tree, bool areas) {
+void print_levels(const Analysed& tree) {
     constexpr std::size_t most = 24;
+    const bool areas = tree.by_areas;
     const std::vector<LevelFigures>& levels = tree.analysis.levels;
     Table table;
     std::vector<std::string> head{"level", "nodes", "leaves", "SAH cost"};
@@ -159,10 +165,11 @@ void print_overlap(const Analysis& analysis) {
     table.print("Overlap of siblings' projections, of the smaller of each two");
 }
 
-/// Of the trees over triangles, all meshes together.
-void print_leaves(const std::vector<Analysed>& trees) {
+/// Of the trees that hold the scene's triangles: with two levels those of all meshes together, else the first.
+void print_leaves(const std::vector<Analysed>& trees, Levels levels) {
     std::vector<std::uint64_t> sizes;
-    for (std::size_t i = trees.size() > 1 ? 1 : 0; i < trees.size(); ++i) {
+    const std::size_t first = levels == Levels::two ? 1 : 0, end = levels == Levels::two ? trees.size() : 1;
+    for (std::size_t i = first; i < end; ++i) {
         const std::vector<std::uint64_t>& of_tree = trees[i].analysis.leaves_by_size;
         sizes.resize(std::max(sizes.size(), of_tree.size()));
         for (std::size_t size = 0; size < of_tree.size(); ++size) sizes[size] += of_tree[size];
@@ -174,18 +181,31 @@ void print_leaves(const std::vector<Analysed>& trees) {
     table.print("Sizes of leaves");
 }
 
-/// Those that the tree was built with.
-std::vector<InfluenceRecord> areas_of(const Input& input, const Prepared& prepared) {
-    if (!input.tree) return influence_records(prepared.options.areas);
-    std::vector<InfluenceRecord> areas;
-    for (const LocalArea& area : input.tree->areas) areas.push_back(area.region);
-    return areas;
+/// Those that the tree was built with: of local trees as they are stored, so that a scene and its .bxw file agree; one tree for
+/// all rays stores none.
+std::vector<InfluenceRecord> areas_of(const TreeImage& image, const Prepared& prepared) {
+    if (prepared.options.builder == Builder::blend) return influence_records(prepared.options.areas);
+    return stored_areas(image);
+}
+
+void print_analysis(const Arguments& arguments, const Input& input, const Prepared& prepared,
+                    const std::vector<Analysed>& trees) {
+    std::cout << arguments.input.string() << ": " << grouped(input.scene.triangle_count()) << " triangles, "
+              << name(prepared.tree.layout) << ", " << name(prepared.tree.bounds) << ", "
+              << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << '\n';
+    print_trees(trees);
+    if (trees.empty()) return;
+    print_levels(trees[0]);
+    if (trees[0].by_areas) print_overlap(trees[0].analysis);
+    print_leaves(trees, prepared.tree.levels);
 }
 
 void run(const Arguments& arguments) {
     arguments.choice.check();
     check_output(arguments.nodes, "");
     check_output(arguments.report, "");
+    if (!arguments.nodes.empty() && arguments.nodes == arguments.report)
+        throw UsageError("--nodes and --report must be two files");
     Progress progress(arguments.common.quiet, 4);
     progress.step("reading " + arguments.input.string());
     std::vector<InfluenceRecord> areas;
@@ -195,28 +215,22 @@ void run(const Arguments& arguments) {
     progress.step("building");
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice);
-    if (arguments.rays_of.empty()) areas = areas_of(input, prepared);
     progress.step("analysing");
     const TreeImage built = input.tree ? TreeImage{} : download(device, prepared.tree);
-    const std::vector<Analysed> trees = analyse(input.tree ? *input.tree : built, input.scene, areas);
+    const TreeImage& image = input.tree ? *input.tree : built;
+    if (arguments.rays_of.empty()) areas = areas_of(image, prepared);
+    const std::vector<Analysed> trees = analyse(image, input.scene, areas);
     progress.step("writing");
     Json report = base_report(device, input, prepared, {});
+    add_areas(image, prepared, report);
     report["analysis"] = {{"areas", areas.size()}, {"trees", Json::array()}};
-    for (std::size_t i = 0; i < trees.size(); ++i)
-        report["analysis"]["trees"].push_back(tree_report(trees[i], !areas.empty() && i == 0));
+    for (const Analysed& each : trees) report["analysis"]["trees"].push_back(tree_report(each));
     save_report(arguments.report, report);
-    save_nodes(arguments.nodes, trees, !areas.empty());
+    save_nodes(arguments.nodes, trees);
     progress.clear();
     if (!arguments.common.quiet) {
-        std::cout << arguments.input.string() << ": " << grouped(input.scene.triangle_count()) << " triangles, "
-                  << name(prepared.tree.layout) << ", " << name(prepared.tree.bounds) << ", "
-                  << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << '\n';
-        print_trees(trees, !areas.empty());
-        if (!trees.empty()) {
-            print_levels(trees[0], !areas.empty());
-            if (!areas.empty()) print_overlap(trees[0].analysis);
-            print_leaves(trees);
-        }
+        print_analysis(arguments, input, prepared, trees);
+        std::cout << area_summary(image, prepared);
     }
     if (arguments.common.profile) print_profile(device, prepared);
 }
@@ -229,8 +243,8 @@ Command add_analyze(CLI::App& tool) {
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
     app->add_option(
            "--rays-of", arguments->rays_of,
-           "Influence areas (JSON) whose rays the tree is judged by, beside isotropic ones (default: those that "
-           "it was built with)")
+           "Influence areas (JSON) whose rays the tree is judged by, beside isotropic ones (default: those that it "
+           "was built with, which a .bxw file knows where it holds local trees); local trees go by their own")
         ->type_name("FILE");
     app->add_option("--nodes", arguments->nodes, "JSON file to write with the figures of every node");
     app->add_option("--report", arguments->report, "JSON report to write");

@@ -12,8 +12,8 @@ namespace boxwood::cli {
 namespace {
 
 /// Bytes of the nodes and leaves below root 0; of a valid tree.
-template <class Node, class Leaf>
-std::uint64_t tree_bytes(const std::vector<Node>& nodes, const std::vector<Leaf>&) {
+template <class Node>
+std::uint64_t tree_bytes(const std::vector<Node>& nodes, std::size_t leaf_bytes) {
     std::uint64_t bytes = 0;
     std::vector<std::uint32_t> waiting(nodes.empty() ? 0 : 1, 0u);
     while (!waiting.empty()) {
@@ -23,7 +23,7 @@ std::uint64_t tree_bytes(const std::vector<Node>& nodes, const std::vector<Leaf>
         for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
             const std::uint32_t child = tree_check::reference_of(node, slot);
             if (child & BOXWOOD_LEAF)
-                bytes += sizeof(Leaf);
+                bytes += leaf_bytes;
             else
                 waiting.push_back(child);
         }
@@ -33,9 +33,11 @@ std::uint64_t tree_bytes(const std::vector<Node>& nodes, const std::vector<Leaf>
 
 template <class Node, class Leaf>
 void add_trees(const std::vector<Node>& nodes, const std::vector<Leaf>& leaves, AreaMemory& memory) {
-    memory.global_tree += tree_bytes(nodes, leaves);
-    memory.local_trees += nodes.size() * sizeof(Node) + leaves.size() * sizeof(Leaf);
+    memory.global_tree = tree_bytes(nodes, sizeof(Leaf));
+    memory.local_trees = nodes.size() * sizeof(Node) + leaves.size() * sizeof(Leaf) - memory.global_tree;
 }
+
+std::string word_of(AreaKind kind) { return kind == AreaKind::plane ? "plane" : "point"; }
 
 std::string mebibytes(std::uint64_t bytes) {
     std::ostringstream out;
@@ -51,7 +53,6 @@ AreaMemory area_memory(const TreeImage& tree) {
         add_trees(tree.wide_nodes, tree.blocks, memory);
     else
         add_trees(tree.binary_nodes, tree.triangles, memory);
-    memory.local_trees -= memory.global_tree; // of all trees till here
     memory.areas = tree.areas.size() * sizeof(LocalArea);
     memory.index = tree.area_index.bytes();
     return memory;
@@ -61,7 +62,7 @@ void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
     for (const ProbedArea& each : prepared.probed)
         report["probe"].push_back({{"rays", each.rays},
                                    {"count", each.count},
-                                   {"kind", each.area.kind == AreaKind::plane ? "plane" : "point"},
+                                   {"kind", word_of(each.area.kind)},
                                    {"global_cost", each.global_cost},
                                    {"local_cost", each.local_cost},
                                    {"kept", each.kept}});
@@ -83,10 +84,11 @@ void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report) {
 std::string area_summary(const TreeImage& tree, const Prepared& prepared) {
     std::ostringstream out;
     out << std::fixed << std::setprecision(1);
-    for (const ProbedArea& each : prepared.probed)
-        out << "probe: " << each.count << ' ' << each.rays << " rays suggest a "
-            << (each.area.kind == AreaKind::plane ? "plane" : "point") << " area: " << each.local_cost
-            << " tests per ray instead of " << each.global_cost << (each.kept ? ", kept\n" : ", not kept\n");
+    for (const ProbedArea& each : prepared.probed) {
+        out << word_of(each.area.kind) << " area of " << grouped(each.count) << ' ' << each.rays << " rays";
+        if (each.count > 0) out << ": " << each.local_cost << " tests per ray instead of " << each.global_cost;
+        out << (each.kept ? ", kept\n" : ", not kept\n");
+    }
     if (prepared.options.areas.empty() || prepared.options.builder == Builder::blend) return out.str();
     const AreaMemory memory = area_memory(tree);
     out << grouped(tree.areas.size()) << " of " << grouped(prepared.options.areas.size())

@@ -28,8 +28,9 @@ void print_summary(const Arguments& arguments, const Input& input, const Prepare
               << grouped(input.scene.instances.size()) << " instances, " << name(prepared.tree.layout) << ", "
               << name(prepared.tree.bounds) << ", "
               << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << ", " << grouped(report.nodes)
-              << " nodes, depth " << report.max_depth << ", built in " << std::fixed << std::setprecision(1)
-              << report.total_ms << " ms (kernels " << report.profile.total_ms() << " ms)\n";
+              << " nodes, depth " << report.max_depth << ", built by " << name(prepared.options.builder) << " in "
+              << std::fixed << std::setprecision(1) << report.total_ms << " ms (kernels " << report.profile.total_ms()
+              << " ms)\n";
 }
 
 void run(const Arguments& arguments) {

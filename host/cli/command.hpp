@@ -68,7 +68,7 @@ void add_example(CLI::App& command, const std::string& lines);
 /// Build options and whether any was given.
 struct BuildChoice {
     BuildOptions options;
-    std::string areas; ///< A file of influence areas, or "probe"; empty or "none" for none.
+    std::string areas = "none"; ///< A file of influence areas, "lights", "probe" or "none".
     std::vector<const CLI::Option*> declared;
 
     bool given() const;
@@ -81,9 +81,7 @@ void add_build_options(CLI::App& command, BuildChoice& choice);
 CLI::Option* add_levels(CLI::App& command, BuildOptions& options);
 CLI::Option* add_extents(CLI::App& command, BuildOptions& options);
 CLI::Option* add_measure(CLI::App& command, BuildOptions& options);
-CLI::Option* add_builder(CLI::App& command, BuildOptions& options);
 CLI::Option* add_morton(CLI::App& command, BuildOptions& options);
-CLI::Option* add_area_index(CLI::App& command, BuildOptions& options);
 
 /// The kinds of volumes.
 std::vector<std::string> bounds_words();

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "boxwood/analysis.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/influence.hpp"
 #include "boxwood/requirements.hpp"
@@ -51,7 +52,7 @@ void export_boxes(const Arguments& arguments, const Input& input) {
         built = download(device, prepared.tree);
         areas = influence_records(prepared.options.areas);
     } else {
-        for (const LocalArea& area : input.tree->areas) areas.push_back(area.region);
+        areas = stored_areas(*input.tree);
     }
     Scene lines = box_lines(built ? *built : *input.tree, input.scene, arguments.depths);
     std::size_t boxes = 0;

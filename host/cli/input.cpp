@@ -38,7 +38,7 @@ namespace {
 /// What --areas names; of lights and of a probe from the scene's first camera, those that are worth it.
 std::vector<InfluenceArea> areas_of(Device& device, const Input& input, const BuildChoice& choice,
                                     std::vector<ProbedArea>& probed) {
-    if (choice.areas.empty() || choice.areas == "none") return {};
+    if (choice.areas == "none") return {};
     if (choice.areas == "lights") {
         probed = judge_areas(device, input.scene, areas_from_lights(input.scene), choice.options);
     } else if (choice.areas == "probe") {

@@ -58,7 +58,9 @@ ExitCode fail_parse(const CLI::App& tool, const CLI::ParseError& error) {
     const auto parsed = tool.get_subcommands();
     if (const auto words = tool.remaining(); parsed.empty() && !words.empty() && !words.front().starts_with('-'))
         return fail(usage, "there is no command \"" + words.front() + "\" (see boxwood --help)");
-    const std::string command = parsed.empty() ? "" : " " + parsed.front()->get_name();
+    std::string command;
+    for (auto within = parsed; !within.empty(); within = within.front()->get_subcommands())
+        command += ' ' + within.front()->get_name();
     return fail(usage, std::string(error.what()) + " (see boxwood" + command + " --help)");
 }
 

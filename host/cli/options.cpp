@@ -52,14 +52,17 @@ void BuildChoice::check() const {
         throw UsageError(
             "--layout wide8 holds axis-aligned boxes only: leave it out, or use --layout binary, with --bounds " +
             std::string(name(options.bounds.kind)));
-    const bool has_areas = !areas.empty() && areas != "none";
+    if (areas.empty()) throw UsageError("--areas names nothing: give a file, lights, probe or none");
+    const bool has_areas = areas != "none";
     if (has_areas && options.levels == Levels::two)
-        throw UsageError("--areas needs one level, whose local trees lie in world space: leave --levels two out");
+        throw UsageError("--areas needs one level, as areas lie in world space: leave --levels two out");
     if (has_areas && options.bounds.kind != Bounds::aabb)
         throw UsageError("--areas needs axis-aligned boxes: leave --bounds " + std::string(name(options.bounds.kind)) +
                          " out");
-    if (!has_areas && options.area_index != AreaIndexKind::automatic)
-        throw UsageError("--area-index is of use with --areas only");
+    if (options.area_index != AreaIndexKind::automatic && (!has_areas || options.builder == Builder::blend))
+        throw UsageError("--area-index is of use with local trees only, those of --areas without --builder blend");
+    if (options.morton != MortonBits::bits30 && options.builder != Builder::lbvh)
+        throw UsageError("--morton is of use with --builder lbvh only");
     if (!has_areas && needs_areas(options.builder))
         throw UsageError("--builder " + std::string(name(options.builder)) + " needs --areas");
     if (options.bounds.extents == Extents::corners && options.bounds.kind != Bounds::obb_moments)
@@ -100,14 +103,15 @@ CLI::Option* add_morton(CLI::App& command, BuildOptions& options) {
         ->check(CLI::IsMember({30, 63}));
 }
 
+namespace {
+
 CLI::Option* add_builder(CLI::App& command, BuildOptions& options) {
     return command
         .add_option_function<std::string>(
             "--builder", [&](const std::string& word) { options.builder = to_builder(word); },
             "Morton codes (lbvh, default): a fast build; surface area heuristic (sah): fast rays; halves in space "
             "(midpoint); projected area heuristic (pah): fast rays of influence areas; both by the areas' shares of "
-            "the "
-            "rays (blend): one tree for all")
+            "the rays (blend): one tree for all")
         ->check(CLI::IsMember({"lbvh", "sah", "midpoint", "pah", "blend"}));
 }
 
@@ -118,6 +122,8 @@ CLI::Option* add_area_index(CLI::App& command, BuildOptions& options) {
             "How the influence areas of a point are found (default: list for up to eight, else kd)")
         ->check(CLI::IsMember({"list", "octree", "kd"}));
 }
+
+} // namespace
 
 void add_build_options(CLI::App& command, BuildChoice& choice) {
     BuildOptions& options = choice.options;

@@ -25,8 +25,11 @@ struct Arguments {
 
 using Scenes = std::map<std::string, Mesh>;
 
-/// The scenes at hand; the others are listed as left out, and their configurations dropped.
+/// The scenes at hand; the others are listed as left out, and their configurations dropped. Throws InputError where none is left.
 Scenes load_scenes(const Arguments& arguments, std::vector<Configuration>& configurations, InfluenceStudy& study) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(arguments.scenes, ignored))
+        throw InputError(arguments.scenes.string(), "", "is not a folder of scenes");
     Scenes scenes;
     std::vector<Configuration> kept;
     for (const Configuration& configuration : configurations) {
@@ -42,6 +45,9 @@ Scenes load_scenes(const Arguments& arguments, std::vector<Configuration>& confi
         }
         kept.push_back(configuration);
     }
+    if (kept.empty())
+        throw InputError(arguments.areas.string(), "",
+                         "has no area whose scene is in " + arguments.scenes.string() + " as pah_NAME.glb");
     configurations = std::move(kept);
     return scenes;
 }
@@ -49,6 +55,7 @@ Scenes load_scenes(const Arguments& arguments, std::vector<Configuration>& confi
 Json options_report(const Arguments& arguments, const InfluenceStudy& study) {
     Json options = {{"areas", arguments.areas.string()},
                     {"scenes", arguments.scenes.string()},
+                    {"published", arguments.published.string()},
                     {"rays", arguments.rays},
                     {"seed", arguments.seed}};
     for (const StudyBuilder& builder : study.builders) {
@@ -67,6 +74,11 @@ Json options_report(const Arguments& arguments, const InfluenceStudy& study) {
     return options;
 }
 
+/// Not a multiple of the generator's own step, or the rays of one seed would be those of another from some draw on.
+std::uint64_t first_ray_seed(const Arguments& arguments) {
+    return 0x9e3779b97f4a7c15u + (arguments.seed - 1) * 0xd1342543de82ef95u;
+}
+
 void study_all(Device& device, const Arguments& arguments, const Scenes& scenes,
                const std::vector<Configuration>& configurations, const Published& published, InfluenceStudy& study,
                Progress& progress) {
@@ -74,8 +86,7 @@ void study_all(Device& device, const Arguments& arguments, const Scenes& scenes,
         const Configuration& configuration = configurations[i];
         progress.step(configuration.name());
         // The same rays for all builders, and others in each configuration.
-        const std::vector<Ray> rays =
-            area_rays(configuration.record, arguments.rays, arguments.seed * 0x9e3779b97f4a7c15u + i);
+        const std::vector<Ray> rays = area_rays(configuration.record, arguments.rays, first_ray_seed(arguments) + i);
         const Mesh& scene = scenes.at(configuration.scene);
         study.results.push_back(study_configuration(device, configuration, scene, study.builders, rays));
         const auto found = published.find(configuration.name());
@@ -93,8 +104,11 @@ void run(const Arguments& arguments) {
     std::vector<Configuration> configurations = load_configurations(arguments.areas);
     Published published;
     if (!arguments.published.empty()) published = load_published(arguments.published);
-    study.published = !published.empty();
     const Scenes scenes = load_scenes(arguments, configurations, study);
+    study.published =
+        std::ranges::any_of(configurations, [&](const auto& each) { return published.contains(each.name()); });
+    if (!arguments.published.empty() && !study.published)
+        throw InputError(arguments.published.string(), "", "has no line of a configuration that is studied");
     Device device = open_device(arguments.common);
     Progress progress(arguments.common.quiet, configurations.size());
     study_all(device, arguments, scenes, configurations, published, study, progress);
@@ -106,9 +120,11 @@ void run(const Arguments& arguments) {
     add_study(study, report);
     save_report(arguments.report, report);
     progress.clear();
-    if (arguments.common.quiet) return;
-    std::cout << configurations.size() << " configurations, " << grouped(arguments.rays) << " rays each\n";
-    print_study(study);
+    if (!arguments.common.quiet) {
+        std::cout << configurations.size() << " configurations, " << grouped(arguments.rays) << " rays each\n";
+        print_study(study);
+    }
+    if (arguments.common.profile) print_profile(device, {});
 }
 
 } // namespace

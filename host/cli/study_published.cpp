@@ -13,12 +13,18 @@ namespace boxwood::cli {
 
 namespace {
 
-std::vector<std::string> cells_of(std::string line) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
+std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells;
     std::istringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
     return cells;
+}
+
+/// The next line without its end, of either kind.
+bool get_line(std::istream& stream, std::string& line) {
+    if (!std::getline(stream, line)) return false;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return true;
 }
 
 /// One line, its cells found by the names of their columns.
@@ -47,20 +53,27 @@ struct Line {
 } // namespace
 
 Published load_published(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) throw InputError(file.string(), "", "is a folder");
     std::ifstream stream(file);
-    if (!stream) throw InputError(file.string(), "file", "cannot be opened");
+    if (!stream) throw InputError(file.string(), "", "cannot be opened");
     std::string text;
-    std::getline(stream, text);
+    get_line(stream, text);
     std::map<std::string, std::size_t> columns;
-    for (const std::string& name : cells_of(text)) columns.emplace(name, columns.size());
+    std::size_t column = 0;
+    for (const std::string& name : cells_of(text))
+        if (!columns.emplace(name, column++).second && !name.empty())
+            throw InputError(file.string(), "line 1", "names column " + name + " twice");
     for (const char* name : {"scene", "area", "orientation", "builder", "real_cost_local", "estimated_pah_cost",
                              "estimated_sah_cost", "overlap_level4", "overlap_level4_culled"})
         if (!columns.contains(name)) throw InputError(file.string(), "line 1", std::string("names no column ") + name);
     Published published;
-    for (std::size_t number = 2; std::getline(stream, text); ++number) {
+    for (std::size_t number = 2; get_line(stream, text); ++number) {
         if (text.empty()) continue;
         const Line line{columns, cells_of(text), file.string(), "line " + std::to_string(number)};
         const std::string configuration = line.word("scene") + ' ' + line.word("area") + ' ' + line.word("orientation");
+        if (published[configuration].contains(line.word("builder")))
+            throw InputError(line.file, line.where, "has " + line.word("builder") + " of " + configuration + " again");
         PublishedCost& cost = published[configuration][line.word("builder")];
         cost.cost = line.number("real_cost_local");
         cost.estimated_pah = line.number("estimated_pah_cost");

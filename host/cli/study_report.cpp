@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "cli/study_summary.hpp"
+#include "cli/table.hpp"
 
 namespace boxwood::cli {
 
 namespace {
-
-std::string level_word(std::uint32_t level) {
-    return level == overlap_levels[std::size(overlap_levels) - 1] ? "all" : std::to_string(level);
-}
 
 Json report_of(const TreeResult& tree) {
     Json json = {{"estimated_sah", tree.analysis.all.sah},
@@ -62,6 +61,11 @@ Columns columns(const InfluenceStudy& study, const Group& group, const Figure& f
     return json;
 }
 
+std::size_t count_of(std::span<const ConfigurationResult> results, const Group& group) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(results, [&](const ConfigurationResult& result) { return group.has(result); }));
+}
+
 void add_ratios(const InfluenceStudy& study, Json& report) {
     const Columns all = columns(study, {}, cost), to_hit = columns(study, {}, cost_to_hit),
                   published = columns(study, {}, published_cost);
@@ -76,7 +80,8 @@ void add_ratios(const InfluenceStudy& study, Json& report) {
     report["geomean_over_published"] = columns(study, {}, cost, published_cost).geomean;
     report["groups"] = Json::object();
     for (const Group& group : groups_of(study.results))
-        report["groups"][group.name()] = {{"geomean", columns(study, group, cost).geomean},
+        report["groups"][group.name()] = {{"configurations", count_of(study.results, group)},
+                                          {"geomean", columns(study, group, cost).geomean},
                                           {"geomean_to_hit", columns(study, group, cost_to_hit).geomean},
                                           {"published_geomean", columns(study, group, published_cost).geomean}};
 }
@@ -90,7 +95,7 @@ void add_errors(const InfluenceStudy& study, Json& report) {
     for (const char* area : {"plane", "point"}) {
         const Group group{area, ""};
         for (const StudyBuilder& builder : study.builders) {
-            Json& json = report["errors"][area][builder.name];
+            Json& json = report["errors"][area][builder.name] = Json::object();
             add_mean(study, group, culled_error, builder.name, "pah_culled", json);
             add_mean(study, group, projected_error, builder.name, "pah", json);
             add_mean(study, group, surface_error, builder.name, "sah", json);
@@ -104,7 +109,7 @@ void add_overlap(const InfluenceStudy& study, Json& report) {
     report["published_overlap"] = Json::object();
     for (const StudyBuilder& builder : study.builders) {
         for (const std::uint32_t level : overlap_levels) {
-            Json& json = report["overlap"][builder.name][level_word(level)];
+            Json& json = report["overlap"][builder.name][level_word(level)] = Json::object();
             add_mean(study, {}, overlap_to(level, false), builder.name, "all", json);
             add_mean(study, {}, overlap_to(level, true), builder.name, "culled", json);
         }

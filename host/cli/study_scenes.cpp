@@ -11,40 +11,31 @@
 #include "boxwood/geometry.hpp"
 #include "boxwood/gltf.hpp"
 #include "hierarchy/area_triangles.hpp"
+#include "scene/random.hpp"
 
 namespace boxwood::cli {
 
 namespace {
 
-/// Splitmix64: the same numbers on every machine.
-class Uniform {
-public:
-    explicit Uniform(std::uint64_t seed) : state_(seed) {}
-    /// In [low, high).
-    double operator()(double low, double high) {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    glm::dvec3 vector(double low, double high) {
-        const double x = (*this)(low, high), y = (*this)(low, high), z = (*this)(low, high);
-        return {x, y, z};
-    }
+/// In [low, high), of 53 bits.
+double uniform(Random& random, double low, double high) {
+    return low + (high - low) * static_cast<double>(random.bits() >> 11) * 0x1p-53;
+}
 
-private:
-    std::uint64_t state_;
-};
+glm::dvec3 uniform_vector(Random& random, double low, double high) {
+    const double x = uniform(random, low, high), y = uniform(random, low, high), z = uniform(random, low, high);
+    return {x, y, z};
+}
 
 /// The first vertices anywhere in [0, 10]^3, the second within 1 of the first along each axis, the third of the second.
 Mesh random_triangles(std::uint32_t count, std::uint64_t seed) {
-    Uniform uniform(seed * 0x2545f4914f6cdd1du + count);
+    Random random(seed * 0x2545f4914f6cdd1du + count);
     Mesh mesh{"random", {}, {}};
     for (std::uint32_t i = 0; i < count; ++i) {
-        glm::dvec3 vertex = uniform.vector(0.0, 10.0);
+        glm::dvec3 vertex = uniform_vector(random, 0.0, 10.0);
         for (int corner = 0; corner < 3; ++corner) {
             mesh.positions.emplace_back(vertex);
-            vertex += uniform.vector(-1.0, 1.0);
+            vertex += uniform_vector(random, -1.0, 1.0);
         }
         mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
@@ -83,7 +74,8 @@ std::optional<Mesh> load_study_scene(const std::string& name, const std::filesys
     if (name == "Random1000") return random_triangles(1000, seed);
     const std::string stem = name == "Suzanne" ? "MonkeyModel" : name == "Wood" ? "WoodScene" : name;
     const std::filesystem::path file = folder / ("pah_" + stem + ".glb");
-    if (!std::filesystem::exists(file)) return std::nullopt;
+    std::error_code none; // a name that no file can have
+    if (!std::filesystem::exists(file, none)) return std::nullopt;
     Scene scene = flatten(load_gltf(file));
     return scene.meshes.empty() ? Mesh{} : std::move(scene.meshes[0]);
 }
@@ -100,10 +92,11 @@ Mesh local_mesh(Device& device, const Mesh& mesh, const InfluenceRecord& area) {
 }
 
 std::vector<Ray> area_rays(const InfluenceRecord& area, std::uint32_t count, std::uint64_t seed) {
-    Uniform uniform(seed);
+    Random random(seed);
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {
-        const double x = uniform(-1.0, 1.0) * area.half_width, y = uniform(-1.0, 1.0) * area.half_height;
+        const double x = uniform(random, -1.0, 1.0) * area.half_width;
+        const double y = uniform(random, -1.0, 1.0) * area.half_height;
         for (int k = 0; k < 3; ++k) {
             const double aside = x * area.right[k] + y * area.up[k];
             const double direction = area.point ? area.forward[k] + aside : double{area.forward[k]};

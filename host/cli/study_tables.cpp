@@ -45,6 +45,10 @@ void print_costs(const InfluenceStudy& study) {
     to_hit.print("Cost of a search for the closest hit, nearest child first");
 }
 
+std::optional<double> known(const Ratios& ratios, double Ratios::*value) {
+    return ratios.count ? std::optional(ratios.*value) : std::nullopt;
+}
+
 /// Published ratios beside ours where `published` is given.
 void print_ratios(const InfluenceStudy& study, const Figure& figure, bool published, const std::string& title) {
     Table table;
@@ -55,9 +59,9 @@ void print_ratios(const InfluenceStudy& study, const Figure& figure, bool publis
     const auto add = [&](const std::string& word, const Group& group, double Ratios::*value, int digits) {
         std::vector<std::string> row{word};
         for (const StudyBuilder& builder : study.builders) {
-            const Ratios theirs = published_ratios(group, builder.name);
-            row.push_back(beside(fixed(ratios(study.results, group, figure, builder.name, study_base).*value, digits),
-                                 theirs.count ? std::optional(theirs.*value) : std::nullopt, digits));
+            const Ratios ours = ratios(study.results, group, figure, builder.name, study_base);
+            row.push_back(beside(number(known(ours, value), digits),
+                                 known(published_ratios(group, builder.name), value), digits));
         }
         table.add(std::move(row));
     };
@@ -73,8 +77,9 @@ void print_ratios(const InfluenceStudy& study, const Figure& figure, bool publis
     if (published) {
         std::vector<std::string> row{"over published base"};
         for (const StudyBuilder& builder : study.builders)
-            row.push_back(
-                fixed(ratios(study.results, {}, figure, builder.name, study_base, published_cost).geomean, 3));
+            row.push_back(number(
+                known(ratios(study.results, {}, figure, builder.name, study_base, published_cost), &Ratios::geomean),
+                3));
         table.add(std::move(row));
     }
     table.print(title);

@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "boxwood/analysis.hpp"
+
 namespace boxwood::cli {
 
 void Table::print(const std::string& title) const {
@@ -26,6 +28,10 @@ std::string fixed(double value, int digits) {
     std::ostringstream text;
     text << std::fixed << std::setprecision(digits) << value;
     return text.str();
+}
+
+std::string level_word(std::uint32_t level) {
+    return level == overlap_levels[std::size(overlap_levels) - 1] ? "all" : std::to_string(level);
 }
 
 } // namespace boxwood::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,8 @@ private:
 
 /// With so many digits after the point.
 std::string fixed(double value, int digits);
+
+/// The word for one of overlap_levels: its number, "all" for the last.
+std::string level_word(std::uint32_t level);
 
 } // namespace boxwood::cli

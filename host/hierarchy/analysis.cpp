@@ -112,8 +112,8 @@ std::vector<NodeMeasures> measure_nodes(const AnalysisTree& tree, std::span<cons
         measures[i].surface = root > 0.0 ? surface(corners_of(tree, i)) / root : 1.0;
     double shares = 0.0;
     for (const InfluenceRecord& area : areas) shares += area.share;
-    if (!(shares > 0.0)) return measures;
-    for (const InfluenceRecord& area : areas) add_area(tree, area, area.share / shares, measures);
+    const double even = 1.0 / static_cast<double>(areas.size());
+    for (const InfluenceRecord& area : areas) add_area(tree, area, shares > 0.0 ? area.share / shares : even, measures);
     return measures;
 }
 

@@ -91,6 +91,7 @@ AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<
     const std::vector<std::uint32_t> marks = download(device, leaves);
     const auto count = static_cast<std::uint32_t>(topology.size());
     const std::uint32_t first = offsets[tree];
+    if (offsets[tree + 1] == first) return result;
     std::vector<std::uint32_t> indices{offsets[tree + 1] - first == 1 ? count + first : first};
     result.nodes.push_back({boxes[indices[0]], 0, BOXWOOD_NONE, 0, 0, 0});
     for (std::uint32_t i = 0; i < result.nodes.size(); ++i) {
@@ -115,6 +116,8 @@ std::vector<AnalysisTree> analysis_trees(const TreeImage& image, const Scene& sc
     if (scene.instances.empty()) return trees;
     if (image.levels == Levels::one) {
         trees.push_back(stored_tree(image, false, 0, "tree"));
+        for (std::size_t i = 0; i < image.areas.size(); ++i)
+            trees.push_back(stored_tree(image, false, image.areas[i].root, "local tree " + std::to_string(i)));
         return trees;
     }
     trees.push_back(stored_tree(image, true, 0, "top level"));
@@ -126,6 +129,15 @@ std::vector<AnalysisTree> analysis_trees(const TreeImage& image, const Scene& sc
         trees.push_back(stored_tree(image, false, image.instances[i].root, scene.meshes[mesh].name));
     }
     return trees;
+}
+
+std::vector<InfluenceRecord> stored_areas(const TreeImage& image) {
+    std::vector<InfluenceRecord> records;
+    for (const LocalArea& area : image.areas) {
+        records.push_back(area.region);
+        records.back().near = area.near;
+    }
+    return records;
 }
 
 } // namespace boxwood

@@ -37,9 +37,11 @@ const char* wrong_with(const LocalArea& area) {
     if (region.near < 0.0f || region.far <= region.near) return "does not reach from near to far";
     if (region.sin_tolerance < 0.0f || region.sin_tolerance > 1.0f) return "has a tolerance that is no sine";
     if (region.share < 0.0f || region.share > 1.0f) return "has a share out of range";
+    if (!(area.near >= 0.0f && area.near < region.far) || (region.point == 0 && area.near != 0.0f))
+        return "has rays that do not begin before far";
     if (!all_finite(area.box.min) || !all_finite(area.box.max) || !is_ordered(area.box))
         return "has a box that is not finite or inverted";
-    return region.reserved == 0 && area.reserved == 0 ? nullptr : "has a reserved word that is not zero";
+    return region.reserved == 0 ? nullptr : "has a reserved word that is not zero";
 }
 
 const char* wrong_with(const AreaIndex& index, std::size_t i, std::size_t areas) {

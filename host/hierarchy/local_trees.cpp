@@ -28,7 +28,7 @@ void append_triangles(Device& device, const Scene& flat, const std::vector<std::
 } // namespace
 
 LocalArea local_area(const InfluenceRecord& record) {
-    LocalArea area{record, {}, 0, 0};
+    LocalArea area{record, {}, 0, record.near};
     if (area.region.point != 0) area.region.near = 0.0f;
     area.box = enclosing_box(area.region);
     const float slack = area_rounding(area);

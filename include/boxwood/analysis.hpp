@@ -42,14 +42,18 @@ struct AnalysisTree {
 };
 
 /// Tree `tree` of a forest with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in TopDownTree), to
-/// single primitives without any. Waits.
+/// single primitives without any. A tree over no primitives has no nodes. Waits. O(nodes of the forest).
 AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                            BufferView<const std::uint32_t> leaves = {}, std::size_t tree = 0);
 
 /// The trees of a valid image as they are stored: with two levels the tree over instances, then that of each mesh that has
-/// an instance, in object space; else one. A child of a wide8 node is one level deeper. A root's box, which no layout stores,
-/// is the axis-aligned hull of its children's. An empty tree gives none.
+/// an instance, in object space; else the one over everything ("tree"), then the local tree of each of image.areas ("local tree
+/// I"), in world space. A child of a wide8 node is one level deeper. A root's box, which no layout stores, is the axis-aligned
+/// hull of its children's. An empty tree gives none.
 std::vector<AnalysisTree> analysis_trees(const TreeImage& image, const Scene& scene);
+
+/// The rays of each of image.areas, as the builders of the local trees knew them: those of point areas begin at their near plane.
+std::vector<InfluenceRecord> stored_areas(const TreeImage& image);
 
 /// A node as functions of the caller see it.
 struct NodeView {
@@ -89,7 +93,7 @@ struct NodeMeasures {
     double smaller_culled = 0.0;
 };
 
-/// By node. Without areas all but the surface is zero. O(nodes areas).
+/// By node. Areas without shares count alike; without areas all but the surface is zero. O(nodes areas).
 std::vector<NodeMeasures> measure_nodes(const AnalysisTree& tree, std::span<const InfluenceRecord> areas);
 
 /// Sums over the nodes of one level, or of several.

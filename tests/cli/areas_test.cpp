@@ -68,6 +68,9 @@ TEST_CASE("areas: what does not go together, and files that are none") {
     CHECK(build("--areas areas.json --levels two").code == 2);
     CHECK(build("--areas areas.json --bounds obb-points").code == 2);
     CHECK(build("--area-index kd").code == 2);
+    CHECK(build("--area-index kd --areas areas.json --builder blend").code == 2); // no local trees to find
+    CHECK(build("--morton 63 --builder sah").code == 2);
+    CHECK(build("--areas ''").code == 2);
     CHECK(build("--areas missing.json").code == 3);
     const Run flat = build("--areas flat.json");
     CHECK(flat.code == 3);

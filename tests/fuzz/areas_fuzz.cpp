@@ -40,8 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         double sum = 0;
         for (const InfluenceRecord& record : influence_records(read_areas(text, "fuzz"))) {
-            const float* floats = record.origin;
-            for (int k = 0; k < 3; ++k) sum += floats[k] + record.right[k] + record.up[k] + record.forward[k];
+            for (int k = 0; k < 3; ++k) sum += record.origin[k] + record.right[k] + record.up[k] + record.forward[k];
             sum += record.half_width + record.half_height + record.far + record.sin_tolerance + record.share;
             if (!std::isfinite(sum) || !(record.near < record.far)) std::abort();
         }

@@ -118,7 +118,18 @@ TEST_CASE("influence areas with their trees and an index are valid, and what is 
         CHECK(area([](TreeImage& t) { t.areas[0].region.sin_tolerance = 2.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].region.share = -1.0f; }) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.areas[0].box.min[0] = 3.0f; }) == "areas[0]");
-        CHECK(area([](TreeImage& t) { t.areas[0].reserved = 1; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].region.reserved = 1; }) == "areas[0]");
+        CHECK(area([](TreeImage& t) { t.areas[0].near = 1.0f; }) == "areas[0]"); // of a plane area
+        const auto near = [&](float value) {
+            return area([=](TreeImage& t) {
+                t.areas[0].region.point = 1;
+                t.areas[0].near = value;
+            });
+        };
+        CHECK(near(1.0f) == "accepted");
+        CHECK(near(-1.0f) == "areas[0]");
+        CHECK(near(2.0f) == "areas[0]"); // as far as it reaches
+        CHECK(near(not_a_number) == "areas[0]");
         CHECK(area([](TreeImage& t) { t.area_index.nodes.clear(); }) == "area_nodes");
         CHECK(area([](TreeImage& t) { t.areas.clear(); }) == "area_nodes");
         CHECK(area([](TreeImage& t) { t.area_index.nodes[0].first = 0; }) == "area_nodes[0]"); // itself

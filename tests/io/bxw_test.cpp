@@ -38,9 +38,16 @@ std::string refusal(const std::string& bytes) {
 
 bool mentions(const std::string& text, const std::string& word) { return text.find(word) != std::string::npos; }
 
+/// With an influence area where a tree may have one.
+TreeImage tree_of(const Scene& scene, Volumes volumes, Levels levels) {
+    TreeImage tree = sample_tree(scene, volumes.layout, levels, volumes.bounds);
+    if (levels == Levels::one && volumes.bounds == Bounds::aabb) add_sample_area(tree);
+    return tree;
+}
+
 std::string sample_bytes(Volumes volumes, Levels levels) {
     const Scene scene = sample_scene();
-    return bxw_bytes(scene, sample_tree(scene, volumes.layout, levels, volumes.bounds));
+    return bxw_bytes(scene, tree_of(scene, volumes, levels));
 }
 
 /// Overwrites the bytes of `text` at `offset` with those of `value`.
@@ -72,8 +79,7 @@ TEST_CASE("a .bxw file gives back scene and tree, bit for bit") {
             CAPTURE(name(volumes.bounds));
             CAPTURE(name(levels));
             const Scene scene = sample_scene();
-            TreeImage tree = sample_tree(scene, volumes.layout, levels, volumes.bounds);
-            if (levels == Levels::one && volumes.bounds == Bounds::aabb) add_sample_area(tree);
+            const TreeImage tree = tree_of(scene, volumes, levels);
             save_bxw(file, scene, tree);
             const BxwFile loaded = load_bxw(file);
             CHECK(same(loaded.scene, scene));
@@ -104,6 +110,20 @@ TEST_CASE("a tree that does not fit the scene is not written") {
     tree.blocks[0].primitive[0] = 1; // the mesh has one triangle
     CHECK_THROWS_AS(save_bxw(file, scene, tree), InputError);
     CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("a .bxw file gives back every kind of index of areas, by its documented number") {
+    const Scene scene = sample_scene();
+    TreeImage tree = tree_of(scene, layouts[0], Levels::one);
+    std::uint32_t number = 0;
+    for (const AreaIndexKind kind : {AreaIndexKind::list, AreaIndexKind::octree, AreaIndexKind::kd}) {
+        tree.area_index.kind = kind;
+        const std::string bytes = bxw_bytes(scene, tree);
+        CHECK(read_bxw(bytes).tree.area_index.kind == kind);
+        std::uint32_t stored = 0;
+        std::memcpy(&stored, sections_of(bytes)[tree_section].data() + 20, sizeof stored);
+        CHECK(stored == number++);
+    }
 }
 
 TEST_CASE("the file on disk has the documented layout") {
@@ -298,6 +318,7 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 16, 7u); }), "unknown bounds"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 20, 3u); }), "unknown index of areas"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 16, 1u); }), "binary_nodes"));
     CHECK(mentions(hostile([](auto& s) { s[tree_section] += s[tree_section]; }), "section tree"));
     CHECK(mentions(hostile([](auto& s) { s[tree_section].clear(); }), "section tree"));
