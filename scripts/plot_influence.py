@@ -18,6 +18,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 # Colours that differ for colour-blind readers too (Okabe and Ito 2008), and a marker each.
 STYLES = [("#000000", "s"), ("#0072B2", "o"), ("#D55E00", "v"), ("#CC79A7", "^"), ("#E69F00", "D"), ("#56B4E9", "P"),
@@ -52,6 +53,7 @@ def plot(axes, groups, builders, key, title):
     axes.axvline(1.0, color="#bbbbbb", linewidth=1.5, zorder=1)
     axes.set_yticks(range(len(groups)), groups.keys())
     axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(matplotlib.ticker.LogLocator(subs=(1.2, 1.5, 2, 3, 4, 5, 6, 7, 8, 9)))
     axes.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
     axes.xaxis.set_minor_formatter(lambda x, _: f"{x:g}")
     axes.set_xlabel("cost relative to SAH+LSPH")

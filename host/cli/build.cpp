@@ -31,6 +31,8 @@ void print_summary(const Arguments& arguments, const Input& input, const Prepare
               << " nodes, depth " << report.max_depth << ", built by " << name(prepared.options.builder) << " in "
               << std::fixed << std::setprecision(1) << report.total_ms << " ms (kernels " << report.profile.total_ms()
               << " ms)\n";
+    if (arguments.choice.areas != "none" && prepared.options.areas.empty())
+        std::cout << "no influence area by --areas " << arguments.choice.areas << ": a tree without any\n";
 }
 
 void run(const Arguments& arguments) {

@@ -144,7 +144,8 @@ Command add_study(CLI::App& tool) {
     influence->add_option("--published", arguments->published, "CSV file of published costs to set beside");
     influence->add_option("--rays", arguments->rays, "Rays in each configuration (default: 10000)")
         ->check(CLI::Range(1u, 100000000u));
-    influence->add_option("--seed", arguments->seed, "Of the rays and of the random scenes (default: 1)");
+    influence->add_option("--seed", arguments->seed, "Of the rays and of the random scenes (default: 1)")
+        ->check(CLI::NonNegativeNumber);
     influence->add_flag("--parameters", arguments->parameters, "Study the thresholds of the paper's table 2 as well");
     influence->add_option("--report", arguments->report, "JSON report to write");
     add_common(*influence, arguments->common);

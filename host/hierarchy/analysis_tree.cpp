@@ -90,8 +90,8 @@ AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<
     const std::vector<Aabb> boxes = download(device, volumes);
     const std::vector<std::uint32_t> marks = download(device, leaves);
     const auto count = static_cast<std::uint32_t>(topology.size());
+    if (tree + 1 >= offsets.size() || offsets[tree + 1] == offsets[tree]) return result;
     const std::uint32_t first = offsets[tree];
-    if (offsets[tree + 1] == first) return result;
     std::vector<std::uint32_t> indices{offsets[tree + 1] - first == 1 ? count + first : first};
     result.nodes.push_back({boxes[indices[0]], 0, BOXWOOD_NONE, 0, 0, 0});
     for (std::uint32_t i = 0; i < result.nodes.size(); ++i) {

@@ -42,7 +42,8 @@ struct AnalysisTree {
 };
 
 /// Tree `tree` of a forest with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in TopDownTree), to
-/// single primitives without any. A tree over no primitives has no nodes. Waits. O(nodes of the forest).
+/// single primitives without any. A tree over no primitives, or that is not in the forest, has no nodes. Waits. O(nodes of the
+/// forest).
 AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                            BufferView<const std::uint32_t> leaves = {}, std::size_t tree = 0);
 

@@ -54,6 +54,17 @@ TEST_CASE("areas: a tree with local trees is stored with them") {
     tool.succeed("info a.bxw --quiet");
 }
 
+TEST_CASE("areas: where there are none, the summary says so, and by what the tree was built") {
+    const Tool tool;
+    tool.succeed("scene random --triangles 50 -o random.glb --quiet"); // no lights
+    tool.write("none.json", "[]");
+    for (const std::string areas : {"lights", "none.json"}) {
+        const std::string out = tool.succeed("build random.glb -o a.bxw --builder pah --areas " + areas).out;
+        CHECK(out.find("built by sah") != std::string::npos);
+        CHECK(out.find("no influence area by --areas " + areas) != std::string::npos);
+    }
+}
+
 TEST_CASE("areas: what does not go together, and files that are none") {
     const Tool tool;
     tool.succeed("scene cornell -o cornell.glb --quiet");

@@ -167,6 +167,7 @@ TEST_CASE("study influence: bad input is named by file and line") {
     CHECK(nameless.err.find("area 0") != std::string::npos);
     CHECK(tool.run("study influence --scenes .").code == 2);
     CHECK(tool.run("study").code == 2);
+    CHECK(tool.run("study influence --areas areas.json --scenes . --seed -1").code == 2);
     const Run rays = tool.run("study influence --areas areas.json --scenes . --rays 0");
     CHECK(rays.code == 2);
     CHECK(rays.err.find("see boxwood study influence --help") != std::string::npos);

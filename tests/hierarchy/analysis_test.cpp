@@ -283,6 +283,9 @@ TEST_CASE("analysis: a topology down to marked leaves, and its SAH cost in one p
     Device& device = test_device();
     const BuiltForest empty = build_forest_of(device, Scene{});
     CHECK(analysis_tree(device, empty.forest.topology, empty.forest.volumes).nodes.empty());
+    const BuiltForest half = build_forest_of(device, scene_of({test::random_mesh(3, 3, 1, 34), Mesh{}}));
+    CHECK(analysis_tree(device, half.forest.topology, half.forest.volumes, {}, 0).nodes.size() == 5);
+    CHECK(analysis_tree(device, half.forest.topology, half.forest.volumes, {}, 1).nodes.empty());
     for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{small_sizes() ? 50u : 1000u}}) {
         CAPTURE(count);
         const BuiltForest built = build_forest_of(device, scene_of({test::random_mesh(count, 3, 1, 34)}));
