@@ -195,6 +195,43 @@ TEST_CASE("analysis: two boxes side by side, by hand") {
     CHECK(measure_nodes(tree, both)[2].chance == doctest::Approx(0.5 / 16));
 }
 
+TEST_CASE("analysis: figures are free of scale, bit for bit, and finite for boxes and rectangles of no extent") {
+    const std::vector<Aabb> boxes{{{0, 0, 0}, {1, 1, 1}}, {{0.5f, 0, 3}, {1.5f, 1, 4}}, {{-1, 2, 5}, {3, 2, 5}}};
+    const InfluenceRecord areas[] = {record(false, {0, 0, 9}, {0.1, 0, -1}, 2, 1, 0, 20),
+                                     record(true, {1, 0.5, 2}, {0.2, 0.1, 1}, 0.5, 1, 0.25, 20)};
+    const auto measured = [&](float scale) {
+        AnalysisTree tree = family(boxes);
+        for (AnalysisNode& node : tree.nodes)
+            for (int k = 0; k < 3; ++k) node.box.min[k] *= scale, node.box.max[k] *= scale;
+        std::vector<InfluenceRecord> scaled(std::begin(areas), std::end(areas));
+        for (InfluenceRecord& area : scaled) {
+            for (float& x : area.origin) x *= scale;
+            area.near *= scale, area.far *= scale;
+            if (area.point == 0) area.half_width *= scale, area.half_height *= scale;
+        }
+        return measure_nodes(tree, scaled);
+    };
+    const std::vector<NodeMeasures> plain = measured(1.0f);
+    for (const NodeMeasures& node : plain)
+        for (const double figure : {node.surface, node.chance, node.chance_culled, node.overlap, node.smaller})
+            CHECK(std::isfinite(figure));
+    CHECK(plain[3].surface == 0.0); // a line
+    CHECK(plain[3].chance == 0.0);
+    for (const float scale : {0x1p55f, 0x1p-55f, 0x1p-120f}) {
+        CAPTURE(scale);
+        const std::vector<NodeMeasures> other = measured(scale);
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            CHECK(other[i].surface == plain[i].surface);
+            CHECK(other[i].chance == plain[i].chance);
+            CHECK(other[i].chance_culled == plain[i].chance_culled);
+            CHECK(other[i].overlap == plain[i].overlap);
+            CHECK(other[i].smaller_culled == plain[i].smaller_culled);
+        }
+    }
+    // A tree all of whose boxes are one point: every node counts as met.
+    for (const NodeMeasures& node : measure_nodes(family({{{1, 1, 1}, {1, 1, 1}}}), areas)) CHECK(node.surface == 1.0);
+}
+
 TEST_CASE("analysis: stored trees of every layout hold every triangle once, in nested boxes of the stated depth") {
     Device& device = test_device();
     const std::uint32_t triangles = small_sizes() ? 40 : 500;
