@@ -128,7 +128,7 @@ void print_trees(const std::vector<Analysed>& trees) {
     }
     table.print("Trees: expected cost of a ray, " + fixed(box_price, 1) + " per box and " + fixed(primitive_price, 1) +
                 " per primitive");
-    if (trees.size() > most) std::cout << "and " << trees.size() - most << " more, all in the report\n";
+    if (trees.size() > most) std::cout << "and " << trees.size() - most << " more; --report has all\n";
 }
 
 void print_levels(const Analysed& tree) {
@@ -241,10 +241,9 @@ Command add_analyze(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("analyze", "Costs, overlap and shape of a tree: in all, by level, per node");
     const auto arguments = std::make_shared<Arguments>();
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
-    app->add_option(
-           "--rays-of", arguments->rays_of,
-           "Influence areas (JSON) whose rays the tree is judged by, beside isotropic ones (default: those that it "
-           "was built with, which a .bxw file knows where it holds local trees); local trees go by their own")
+    app->add_option("--rays-of", arguments->rays_of,
+                    "Influence areas (JSON) to judge the tree by, beside isotropic rays (default: those that it was "
+                    "built with; a .bxw file keeps those with local trees, which always go by their own)")
         ->type_name("FILE");
     app->add_option("--nodes", arguments->nodes, "JSON file to write with the figures of every node");
     app->add_option("--report", arguments->report, "JSON report to write");

@@ -33,7 +33,7 @@ struct Prepared {
     Tree tree;
     BuildOptions options; ///< As asked for, the layout as it was chosen; or what a stored tree tells.
     std::optional<BuildReport> report;
-    std::vector<ProbedArea> probed; ///< With --areas probe.
+    std::vector<ProbedArea> probed; ///< With --areas lights or probe.
 };
 
 /// The stored tree of a .bxw file, else one built. Throws UsageError for build options beside a stored tree.

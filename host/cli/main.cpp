@@ -42,7 +42,8 @@ ExitCode guarded(const Work& work) {
     } catch (const InputError& error) {
         return fail(bad_input, error.what());
     } catch (const CapacityError& error) {
-        return fail(failed, std::string(error.what()) + "; use a smaller scene or resolution, or another --device");
+        return fail(failed, std::string(error.what()) +
+                                "; use a smaller scene or resolution, fewer areas, or another --device");
     } catch (const ProgramError& error) {
         return fail(failed, first_error(error));
     } catch (const std::bad_alloc&) {

@@ -99,7 +99,7 @@ CLI::Option* add_morton(CLI::App& command, BuildOptions& options) {
     return command
         .add_option_function<int>(
             "--morton", [&](int bits) { options.morton = bits == 63 ? MortonBits::bits63 : MortonBits::bits30; },
-            "Bits of the Morton codes (default: 30)")
+            "Bits of the Morton codes of lbvh (default: 30)")
         ->check(CLI::IsMember({30, 63}));
 }
 
@@ -145,9 +145,10 @@ void add_build_options(CLI::App& command, BuildChoice& choice) {
         add_morton(command, options),
         command
             .add_option("--areas", choice.areas,
-                        "Influence areas with trees of their own for the rays that follow them: a JSON file; those "
-                        "of the scene's lights (lights) or that a probe of 16 x 16 camera rays finds (probe), as far "
-                        "as they are worth it; or none (default)")
+                        "Influence areas with trees of their own for the rays that follow them, or with --builder "
+                        "blend one tree that knows their rays: a JSON file; those of the scene's lights (lights) or "
+                        "that a probe of 16 x 16 rays of its first camera finds (probe), as far as they are worth it; "
+                        "or none (default)")
             ->type_name("FILE|lights|probe|none"),
         add_area_index(command, options),
     };
