@@ -50,8 +50,13 @@ TEST_CASE("areas: a tree with local trees is stored with them") {
     CHECK(report["areas"]["kept"] == 1);
     CHECK(report["areas"]["triangles"][0] > 0);
     CHECK(report["areas"]["local_tree_bytes"] > 0);
-    tool.succeed("trace a.bxw --resolution 16x16 --quiet");
-    tool.succeed("info a.bxw --quiet");
+    const std::string rays = " --rays shadow --resolution 64x64";
+    const Json stored = report_of(tool, "trace a.bxw" + rays);
+    CHECK(stored["trace"]["checksum"] == report_of(tool, "trace cornell.glb" + rays)["trace"]["checksum"]);
+    CHECK(stored["areas"]["kept"] == 1);
+    CHECK(stored["areas"]["local_tree_bytes"] == report["areas"]["local_tree_bytes"]);
+    CHECK(Json::parse(tool.succeed("info a.bxw --json").out)["tree"]["areas"] == 1);
+    CHECK(tool.succeed("info a.bxw").out.find("1 with local trees of ") != std::string::npos);
 }
 
 TEST_CASE("areas: where there are none, the summary says so, and by what the tree was built") {
