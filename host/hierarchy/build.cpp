@@ -36,7 +36,10 @@ void fill_quality(Device& device, const Tree& tree, const BuildParts& parts, boo
 Tree build(Device& device, const Scene& scene, const BuildOptions& options, BuildReport* report) {
     Tree tree = empty_tree(options);
     if (scene.instances.empty()) {
-        if (report) *report = {};
+        if (report) {
+            *report = {};
+            if (options.builder != Builder::blend) report->areas.resize(options.areas.size());
+        }
         return tree;
     }
     device.take_profile();

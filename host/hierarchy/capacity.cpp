@@ -31,6 +31,11 @@ std::uint64_t moment_bytes(Bounds bounds, std::uint64_t triangles) {
     return bounds == Bounds::obb_moments ? 2 * sizeof(float) * BOXWOOD_MOMENT_FLOATS * triangles : 0;
 }
 
+/// While a level over `primitives` is built from the top down.
+TopDownBytes split_bytes(const Device& device, Builder builder, std::uint64_t primitives) {
+    return builder == Builder::lbvh || primitives == 0 ? TopDownBytes{} : topdown_bytes(device, primitives);
+}
+
 struct Need {
     const char* what;
     std::uint64_t bytes;
@@ -57,8 +62,9 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
                                 bytes / sizeof(float), most_elements);
 
     const bool oriented = bounds != Bounds::aabb;
+    constexpr std::uint64_t topology_bytes = 24; // by primitive
     const std::uint64_t positions = 12 * vertices, indices = 12 * triangles;
-    const std::uint64_t volumes = 2 * sizeof(Aabb) * triangles, topology = 24 * triangles;
+    const std::uint64_t volumes = 2 * sizeof(Aabb) * triangles, topology = topology_bytes * triangles;
     const std::uint64_t boxes = oriented ? 2 * sizeof(Obb) * triangles : 0, sorted = sorted_bytes(bounds, triangles);
     const std::uint64_t moments = moment_bytes(bounds, triangles);
     const std::uint64_t binary_nodes = (oriented ? sizeof(OrientedNode) : sizeof(BinaryNode)) * triangles;
@@ -66,11 +72,12 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     const std::uint64_t costs = 32 * triangles, blocks = sizeof(Triangle4) * (triangles / 4);
     const std::uint64_t placed = sizeof(InstanceRecord) * instances;
     const std::uint64_t top = 2 * (oriented ? sizeof(Obb) : sizeof(Aabb)) * instances;
-    const TopDownBytes splits = builder == Builder::lbvh ? TopDownBytes{} : topdown_bytes(device, triangles);
+    const TopDownBytes splits = split_bytes(device, builder, triangles);
+    const TopDownBytes top_splits = split_bytes(device, builder, instances);
     check_each(device, {{"vertex positions", positions},
                         {"triangle indices", indices},
                         {"boxes of nodes", volumes},
-                        {"records of primitives", splits.largest},
+                        {"records of primitives", std::max(splits.largest, top_splits.largest)},
                         {"oriented boxes of nodes", boxes},
                         {"sorted points", sorted},
                         {"moments of nodes", moments},
@@ -81,12 +88,15 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     else
         check_each(device, {{"collapse costs", costs}, {"triangle blocks", blocks}});
 
-    // What is held at once at the least: while nodes are split, while the oriented boxes are fitted to the sorted vertices, or while the layout
-    // is written from topology and volumes.
+    // What is held at once at the least: while nodes are split, while the oriented boxes are fitted to the sorted vertices,
+    // while the layout is written from topology and volumes, or beside it all while the top level is built.
     const std::uint64_t result = layout == Layout::binary ? binary_nodes + records : blocks;
+    const std::uint64_t top_level =
+        (topology_bytes + sizeof(Aabb)) * instances + std::max(top_splits.all, 2 * sizeof(Aabb) * instances);
     const std::uint64_t least =
         positions + indices + topology + placed +
-        std::max(sizeof(Aabb) * triangles + splits.all, volumes + boxes + std::max(sorted + moments, result));
+        std::max({sizeof(Aabb) * triangles + splits.all, volumes + boxes + sorted + moments,
+                  volumes + boxes + result + top_level});
     const std::uint64_t available =
         device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
     if (least > available)

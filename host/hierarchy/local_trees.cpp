@@ -59,7 +59,7 @@ LocalTrees add_local_triangles(Device& device, const Scene& flat, const BuildOpt
         rays.push_back(record);
         rays.back().share = 1.0f; // of the rays in its tree
         trees.sizes.push_back(static_cast<std::uint32_t>(found.size()));
-        check_capacity(device, layout, Bounds::aabb, names.size(), flat.vertex_count(), 0);
+        check_capacity(device, layout, Bounds::aabb, names.size(), flat.vertex_count(), 0, options.builder);
     }
     if (trees.areas.empty()) return trees;
     append_triangles(device, flat, {names.begin() + static_cast<std::ptrdiff_t>(count), names.end()}, geometry);

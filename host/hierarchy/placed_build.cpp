@@ -164,6 +164,7 @@ Tree empty_tree(const BuildOptions& options) {
                          "influence areas need one level of axis-aligned boxes");
     if (options.areas.empty() && needs_areas(options.builder))
         throw InputError("builder", std::string(name(options.builder)), "needs influence areas");
+    validate(options.areas, "influence areas");
     tree.layout = options.layout != Layout::automatic ? options.layout : oriented ? Layout::binary : Layout::wide8;
     return tree;
 }

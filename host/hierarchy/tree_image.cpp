@@ -26,6 +26,7 @@ struct PrimitiveSet {
     std::uint64_t first;
     std::uint64_t count;
     std::uint64_t reached = 0;
+    std::vector<std::uint32_t>* named = nullptr; ///< Takes all that are reached, if there.
 
     /// Marks a primitive; returns what is wrong with it, or null.
     const char* reach(std::uint32_t primitive) {
@@ -33,6 +34,7 @@ struct PrimitiveSet {
         if (seen[first + primitive]) return "names a primitive that another leaf names";
         seen[first + primitive] = true;
         ++reached;
+        if (named) named->push_back(primitive);
         return nullptr;
     }
 };
@@ -125,15 +127,18 @@ template <class LayoutArrays>
 std::uint32_t check_local_trees(Walker<typename LayoutArrays::Node>& walker, const TreeImage& tree, std::uint64_t count,
                                 const LayoutArrays& arrays, const std::string& file) {
     std::uint32_t deepest = 0;
-    std::vector<bool> seen;
+    std::vector<bool> seen(tree.areas.empty() ? 0 : count);
+    std::vector<std::uint32_t> named;
     for (std::size_t i = 0; i < tree.areas.size(); ++i) {
         const std::uint32_t root = tree.areas[i].root;
         const auto fail = [&](const char* what) { throw InputError(file, element("areas", i) + ".root", what); };
         if (root >= arrays.nodes.size()) fail("is out of range");
         if (walker.reached(root)) fail("is a node of another tree");
-        seen.assign(count, false);
-        PrimitiveSet primitives{seen, 0, count};
+        PrimitiveSet primitives{seen, 0, count, 0, &named};
         deepest = std::max(deepest, walk_bottom(walker, root, arrays, primitives, file));
+        // One by one: all marks of a large scene for each of many small trees would take their product.
+        for (const std::uint32_t primitive : named) seen[primitive] = false;
+        named.clear();
     }
     return deepest;
 }
@@ -152,13 +157,11 @@ void check_one_level(const TreeImage& tree, const Scene& scene, const LayoutArra
         throw InputError(file, std::string(arrays.nodes_name), "is empty but the scene is not");
     }
     std::uint32_t depth = 0;
-    if (!arrays.nodes.empty()) {
-        std::vector<bool> seen(count);
-        Walker<typename LayoutArrays::Node> walker(arrays.nodes, arrays.nodes_name, arrays.leaves.size(),
-                                                   LayoutArrays::is_wide, file);
-        depth = check_bottom(walker, 0, arrays, {seen, 0, count}, file);
-        depth = std::max(depth, check_local_trees(walker, tree, count, arrays, file));
-    }
+    std::vector<bool> seen(count);
+    Walker<typename LayoutArrays::Node> walker(arrays.nodes, arrays.nodes_name, arrays.leaves.size(),
+                                               LayoutArrays::is_wide, file);
+    if (!arrays.nodes.empty()) depth = check_bottom(walker, 0, arrays, {seen, 0, count}, file);
+    depth = std::max(depth, check_local_trees(walker, tree, count, arrays, file));
     check_depth("bottom_depth", tree.bottom_depth, depth, file);
     check_depth("top_depth", tree.top_depth, 0, file);
 }

@@ -18,7 +18,7 @@ namespace boxwood {
 enum class Builder {
     lbvh,     ///< Sorted Morton codes: fast.
     sah,      ///< Top-down by the surface area heuristic: trees that are faster to traverse.
-    midpoint, ///< Top-down, halving the longest axis in space.
+    midpoint, ///< Top-down, by the middle of the primitives' centres along the longest axis.
     pah,      ///< Top-down by the projected area heuristic: for rays that follow influence areas.
     blend,    ///< Top-down by both, as many rays follow the areas as their shares say: one tree, no local ones.
 };
@@ -58,7 +58,7 @@ struct AreaReport {
 
 /// What a build measured.
 struct BuildReport {
-    Profile profile;        ///< Stages: bounds, morton, sort, hierarchy, volumes, collapse, top_level.
+    Profile profile;        ///< Stages: areas, bounds, morton, sort, hierarchy, volumes, collapse, top_level.
     double total_ms = 0.0;  ///< Wall clock of the whole build, uploads included, compilation not.
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
@@ -66,17 +66,17 @@ struct BuildReport {
     double sah = 0.0;     ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
     double overlap = 0.0; ///< End-point overlap of the bottom level, if asked for (Aila et al. 2013, every node at 1).
     LevelQuality all;     ///< Both levels.
-    LevelQuality bottom;  ///< In object space, each mesh once.
+    LevelQuality bottom;  ///< In object space, each mesh once, and all local trees.
     LevelQuality top;     ///< In world space; zeros for one level.
     std::uint32_t max_depth = 0;   ///< Of the layout, bottom plus top level.
     std::uint64_t nodes = 0;       ///< Of the layout, both levels and all local trees.
-    std::vector<AreaReport> areas; ///< Of BuildOptions::areas.
+    std::vector<AreaReport> areas; ///< Of BuildOptions::areas; none for blend, which builds no local trees.
 };
 
 /// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
-/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, and for areas
-/// that are not valid or beside two levels or oriented boxes. O(n) work in
-/// the number of primitives but for the sort's passes and exact extents (dissertation 3.3, 3.5, 3.6).
+/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, for areas that are
+/// not valid or beside two levels or oriented boxes, and for pah and blend without areas. O(n) work in the number of primitives
+/// but for the sort's passes, the levels of a top-down builder and exact extents (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
 
 } // namespace boxwood

@@ -41,17 +41,20 @@ struct TopDownOptions {
 /// A topology with the leaves that the strategy chose; a node whose primitives no plane parts is one too.
 struct TopDownTree {
     Topology topology; ///< Down to single primitives: below a chosen leaf ranges are halved.
-    /// n, by inner node: 1 when the whole subtree is one leaf, or part of one; else 0.
+    /// n, by inner node: 1 when the whole subtree is one leaf, or part of one; else 0, as in unused slots.
     Buffer<std::uint32_t> leaves;
     std::uint64_t splits = 0;     ///< Nodes that were split by the strategy.
     std::uint64_t axes_tried = 0; ///< Over those nodes.
     std::uint64_t fallbacks = 0;  ///< Of those nodes, split by the fallback.
 };
 
-/// Builds the trees over the primitives with the boxes `boxes`, tree t over [offsets[t], offsets[t + 1]), top-down, level by
-/// level, all nodes of a level in the same launches. Primitives go left or right by `centres` (3 floats each). The rays of tree t
-/// follow areas[area_starts[t], area_starts[t + 1]) by their shares, the others are isotropic. Deterministic: does not depend on
-/// how the work is cut. O(n) work a level. Throws CapacityError, and ProgramError for a source that does not compile.
+/// Builds the trees over the primitives with the boxes `boxes`, tree t over [offsets[t], offsets[t + 1]), at least one, top-down,
+/// level by level, all nodes of a level in the same launches. Primitives go left or right by `centres` (3 floats each; empty: the
+/// middles of their boxes). Boxes and centres within largest_coordinate of 0 (boxwood/scene.hpp), no box empty. The rays of tree t
+/// follow areas[area_starts[t], area_starts[t + 1]) by their shares, the others are isotropic; no starts: no areas.
+/// Deterministic: does not depend on how the work is cut. At most max_levels levels by the strategy, and as many below as halving
+/// takes. O(n) work a level. Throws InputError for options out of range, CapacityError, and ProgramError for a source that does
+/// not compile.
 TopDownTree topdown(Device& device, BufferView<const Aabb> boxes, BufferView<const float> centres,
                     Buffer<std::uint32_t> offsets, BufferView<const InfluenceRecord> areas,
                     BufferView<const std::uint32_t> area_starts, const TopDownOptions& options);

@@ -9,6 +9,7 @@
 #include "hierarchy/capacity.hpp"
 #include "hierarchy/forest_scene.hpp"
 #include "hierarchy/topdown.hpp"
+#include "shared/instance.h"
 #include "support.hpp"
 #include "tuning.hpp"
 
@@ -77,19 +78,45 @@ TEST_CASE("topdown builds: what the check of capacity counts on is what is taken
     }
 }
 
-TEST_CASE("topdown builds: refused before the work when their records do not fit") {
-    Device& device = test_device();
-    const std::uint64_t triangles = device.info().global_bytes / 150;
-    std::uint64_t asked[2] = {0, 0};
-    for (const Builder builder : {Builder::lbvh, Builder::sah}) {
+namespace {
+
+/// The most triangles, or instances of one triangle, that the check of capacity lets through.
+std::uint64_t most_accepted(Builder builder, bool instances) {
+    const auto accepts = [&](std::uint64_t n) {
         try {
-            check_capacity(device, Layout::wide8, Bounds::aabb, triangles, triangles, 0, builder);
-        } catch (const CapacityError& error) {
-            asked[builder == Builder::sah ? 1 : 0] = error.asked;
+            check_capacity(test_device(), Layout::wide8, Bounds::aabb, instances ? 1 : n, instances ? 3 : n,
+                           instances ? n : 0, builder);
+            return true;
+        } catch (const CapacityError&) {
+            return false;
         }
+    };
+    std::uint64_t low = 1, high = std::uint64_t{1} << 31;
+    REQUIRE(accepts(low));
+    REQUIRE(!accepts(high));
+    while (high - low > 1) {
+        const std::uint64_t middle = (low + high) / 2;
+        (accepts(middle) ? low : high) = middle;
     }
-    CHECK(asked[1] > 0);
-    CHECK(asked[1] != asked[0]);
+    return low;
+}
+
+} // namespace
+
+TEST_CASE("topdown builds: refused before the work when splitting nodes does not fit, of either level") {
+    Device& device = test_device();
+    device.trim();
+    const std::uint64_t available = device.info().global_bytes - device.held_bytes();
+    for (const bool instances : {false, true}) {
+        CAPTURE(instances);
+        const std::uint64_t most = most_accepted(Builder::sah, instances);
+        CHECK(most <= most_accepted(Builder::lbvh, instances));
+        // Held meanwhile, by primitive: its box, the topology, and what it is, a triangle with a vertex or an instance.
+        const std::uint64_t beside = sizeof(Aabb) + 24 + (instances ? sizeof(InstanceRecord) : 24);
+        const TopDownBytes splits = topdown_bytes(device, most);
+        CHECK(splits.all + beside * most <= available);
+        CHECK(splits.largest <= device.info().largest_buffer_bytes);
+    }
 }
 
 TEST_SUITE_END();

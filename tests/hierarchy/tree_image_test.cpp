@@ -152,6 +152,15 @@ TEST_CASE("influence areas with their trees and an index are valid, and what is 
 
 TEST_CASE("an empty tree is valid for an empty scene only") {
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
+        TreeImage local = sample_tree(sample_scene(), layout, Levels::one);
+        add_sample_area(local); // whose tree is not there
+        TreeImage none = sample_tree({}, layout, Levels::one);
+        none.areas = local.areas;
+        none.area_index = local.area_index;
+        for (const std::uint32_t root : {0u, 1u}) {
+            none.areas[0].root = root;
+            CHECK_THROWS_AS(validate(none, Scene{}, "file"), InputError);
+        }
         for (const Levels levels : {Levels::one, Levels::two}) {
             const TreeImage tree = sample_tree({}, layout, levels);
             CHECK_NOTHROW(validate(tree, Scene{}, "file"));
