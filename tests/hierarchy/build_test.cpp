@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
@@ -23,6 +24,10 @@ using namespace boxwood::test;
 TEST_SUITE_BEGIN("hierarchy");
 
 namespace {
+
+InfluenceArea area_along_z() {
+    return {.origin = {1.0, 0.0, 9.0}, .half_width = 6.0, .half_height = 4.0, .far = 18.0, .share = 0.5};
+}
 
 std::vector<BuildOptions> all_options() {
     std::vector<BuildOptions> all;
@@ -256,16 +261,44 @@ TEST_CASE("build: automatic levels are two when a mesh is placed twice, else one
     CHECK(words(requirements(twice, {})) == std::vector<std::string>{"two-levels"});
     CHECK(words(requirements(scene_of({random_mesh(5, 1, 1, 1)}), {})).empty());
     CHECK(build_image(once, {}).first_triangles == std::vector<std::uint32_t>{0, 5, 11});
+    // Areas need one level; blend makes no trees of them.
+    const BuildOptions areas{.areas = {area_along_z()}}, blend{.builder = Builder::blend, .areas = {area_along_z()}};
+    CHECK(build_image(twice, areas).levels == Levels::one);
+    CHECK(words(requirements(twice, areas)) == std::vector<std::string>{"instance-lookup", "influence-areas"});
+    CHECK(words(requirements(twice, blend)) == std::vector<std::string>{"instance-lookup"});
+}
+
+TEST_CASE("build: areas of an empty scene are checked and reported like those of any") {
+    BuildOptions options{.areas = {area_along_z(), area_along_z()}};
+    BuildReport report;
+    CHECK(build(test_device(), Scene{}, options, &report).empty());
+    REQUIRE(report.areas.size() == 2);
+    CHECK(report.areas[1].triangles == 0);
+    options.areas[1].far = std::numeric_limits<double>::quiet_NaN();
+    for (const Scene& scene : {Scene{}, scene_of({random_mesh(5, 1, 1, 1)})}) {
+        std::string where;
+        try {
+            build(test_device(), scene, options);
+        } catch (const InputError& error) {
+            where = error.where;
+        }
+        CHECK(where == "area 1");
+    }
 }
 
 TEST_CASE("build: the same bytes every time and at every tuning") {
     for (const Levels levels : {Levels::one, Levels::two}) {
         std::vector<BuildOptions> kinds{{.layout = Layout::binary},
                                         {.layout = Layout::wide8},
+                                        {.builder = Builder::sah},
+                                        {.builder = Builder::midpoint},
                                         {.bounds = {.kind = Bounds::obb_points}},
                                         {.bounds = {.kind = Bounds::obb_cascade}},
                                         {.bounds = {.kind = Bounds::obb_refined}}};
-        if (small_sizes()) kinds.erase(kinds.begin() + 3, kinds.end()); // their volumes alone are elsewhere
+        if (small_sizes()) kinds.erase(kinds.begin() + 4, kinds.end()); // their volumes alone are elsewhere
+        if (levels == Levels::one)
+            for (const Builder builder : {Builder::pah, Builder::blend})
+                kinds.push_back({.builder = builder, .areas = {area_along_z()}});
         for (const BuildOptions& volumes : kinds) {
             BuildOptions options = volumes;
             options.levels = levels;

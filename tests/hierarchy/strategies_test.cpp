@@ -193,6 +193,24 @@ int poor_splits(const Case& which, std::uint64_t salt) {
     return poor;
 }
 
+/// One tree of a forest as if it were alone.
+HostTopology tree_of(const HostTopology& all, std::uint32_t which) {
+    const std::uint32_t first = all.offsets[which], size = all.offsets[which + 1] - first;
+    const auto moved = [&](std::uint32_t node) {
+        if (node == BOXWOOD_NONE) return node;
+        return node < all.size() ? node - first : node - all.size() - first + size;
+    };
+    HostTopology tree{{0, size}, {}, {}, {}, {}};
+    for (std::uint32_t i = first; i < first + size; ++i) {
+        tree.order.push_back(all.order[i] - first);
+        tree.children.push_back(cl_uint2{{moved(all.children[i].s[0]), moved(all.children[i].s[1])}});
+        tree.parents.push_back(moved(all.parents[i]));
+        tree.far_ends.push_back(all.far_ends[i] - first);
+    }
+    for (std::uint32_t i = first; i < first + size; ++i) tree.parents.push_back(moved(all.parents[all.size() + i]));
+    return tree;
+}
+
 TopDownOptions all_splits() {
     TopDownOptions options;
     options.axes = "all_axes";
@@ -236,6 +254,45 @@ TEST_CASE("strategies: planes that the rays see edge-on come first") {
         return best;
     };
     CHECK(poor_splits(which, 3) == 0);
+}
+
+TEST_CASE("strategies: each tree of a forest is that of its own rays") {
+    Device& device = test_device();
+    const std::uint32_t large = small_sizes() ? 70 : 400; // above and below the 64 primitives of large nodes
+    const std::vector<std::uint32_t> sizes{large, 1, large, 40, large}, starts{0, 0, 2, 4, 4, 5};
+    InfluenceArea other = oblique_plane();
+    other.direction = {0.2, -1.0, 0.1};
+    other.share = 0.125;
+    const std::vector<InfluenceRecord> two = influence_records(std::vector{oblique_plane(), near_point()});
+    const std::vector<InfluenceRecord> one = influence_records(std::vector{other});
+    const std::vector<InfluenceRecord> areas{two[0], one[0], two[0], two[1], one[0]};
+    TopDownOptions options = all_splits();
+    options.measure = "expected_measure";
+    options.cost = "overlap_cost";
+    options.axes = "facing_axes";
+    const auto built = [&](const std::vector<Aabb>& boxes, const std::vector<std::uint32_t>& offsets,
+                           const std::vector<InfluenceRecord>& rays, const std::vector<std::uint32_t>& ray_starts) {
+        return to_host(device, topdown(device, upload(device, boxes, "boxes"), {}, upload(device, offsets, "offsets"),
+                                       upload(device, rays, "areas"), upload(device, ray_starts, "starts"), options)
+                                   .topology);
+    };
+    std::vector<Aabb> boxes;
+    std::vector<std::uint32_t> offsets{0};
+    for (const std::uint32_t size : sizes) { // the same triangles in each
+        const Mesh mesh = random_mesh(size, 3.0f, 0.4f, 5);
+        for (const glm::uvec3& triangle : mesh.triangles) boxes.push_back(box_of(mesh, triangle));
+        offsets.push_back(static_cast<std::uint32_t>(boxes.size()));
+    }
+    const HostTopology all = built(boxes, offsets, areas, starts);
+    for (std::uint32_t t = 0; t < sizes.size(); ++t) {
+        CAPTURE(t);
+        const HostTopology alone =
+            built({boxes.begin() + offsets[t], boxes.begin() + offsets[t + 1]}, {0, sizes[t]},
+                  {areas.begin() + starts[t], areas.begin() + starts[t + 1]}, {0, starts[t + 1] - starts[t]});
+        CHECK(difference(tree_of(all, t), alone) == "");
+    }
+    CHECK(difference(tree_of(all, 0), tree_of(all, 2)) != "");
+    CHECK(difference(tree_of(all, 2), tree_of(all, 4)) != "");
 }
 
 TEST_SUITE_END();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -101,6 +102,11 @@ ReferenceRules quality_rules() {
     return rules;
 }
 
+constexpr const char* width_source = "inline float width(const Distribution* d, Box box) {\n"
+                                     "    return extent_of(box).x / extent_of(d->root).x;\n"
+                                     "}\n";
+float width(const Aabb& root, const Aabb& box) { return (box.max[0] - box.min[0]) / (root.max[0] - root.min[0]); }
+
 std::uint32_t many() { return small_sizes() ? 150 : 3000; }
 
 } // namespace
@@ -165,6 +171,40 @@ TEST_CASE("topdown: axes, thresholds and the fallback as in figure 9") {
     }
 }
 
+TEST_CASE("topdown: axes in turn, and a fallback with a measure and axes of its own") {
+    const Boxes forest = random_boxes({many() / 4, 66}, Spread::sizes, 14);
+    const auto in_turn = [](const Aabb&, std::uint32_t level) {
+        std::array<float, 3> quality{};
+        quality[level % 3] = 1.0f;
+        return quality;
+    };
+    TopDownOptions options;
+    options.source = width_source;
+    options.fallback_measure = "width";
+    ReferenceRules rules = reference_rules();
+    rules.fallback_measure = width;
+    for (const bool fallback : {false, true}) {
+        (fallback ? options.fallback_axes : options.axes) = "round_robin_axes";
+        (fallback ? rules.fallback_axes : rules.axes) = in_turn;
+        check(forest, options, rules);
+        const Result result = run(forest, options);
+        CHECK(result.fallbacks > 0);
+        CHECK(result.fallbacks < result.splits);
+    }
+}
+
+TEST_CASE("topdown: the fewest slices, the most, and numbers between") {
+    for (const std::uint32_t bins : {2u, 3u, 33u, 64u}) {
+        CAPTURE(bins);
+        TopDownOptions options = quality_options(1);
+        options.bins = bins;
+        for (const bool box : {false, true}) {
+            options.bin_box = box;
+            check(random_boxes({many() / 4}, Spread::sizes, bins), options, quality_rules());
+        }
+    }
+}
+
 TEST_CASE("topdown: leaves by every threshold, at every size of node") {
     for (const Tuning& tuning : tunings()) {
         const TuningScope scope(tuning);
@@ -200,6 +240,13 @@ TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted withou
         check(forest, quality_options(1), quality_rules());
         check(forest, quality_options(4), quality_rules());
     }
+    // About the same place, of all sizes: large nodes that no plane parts.
+    Boxes nested{{}, {0, many()}, {}};
+    for (std::uint32_t i = 0; i < many(); ++i) {
+        const float half = std::ldexp(static_cast<float>(1 + i % 7), static_cast<int>(i % 100) - 50);
+        nested.boxes.push_back({{-half, -half, -half}, {half, half, half}});
+    }
+    check(nested, quality_options(1), quality_rules());
     Boxes mixed = random_boxes({many() / 4}, Spread::cube, 23);
     mixed.boxes[5] = {{-1e17f, -1e17f, -1e17f}, {1e17f, 1e17f, 1e17f}};
     mixed.boxes[6] = {{1e17f, 1e17f, 1e17f}, {1e17f, 1e17f, 1e17f}};
@@ -235,14 +282,27 @@ TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
     options.max_levels = 7;
     check(forest, options, quality_rules());
     CHECK(reference_topdown(forest.boxes, {}, forest.offsets, options, quality_rules()).depth <= 7 + 7);
+    // Along one axis, over most of the numbers that a coordinate may be: two slices part off one box at a time.
+    Boxes line;
+    for (double at = 0x1p-120; at < 0x1p59; at *= 2.1) {
+        const auto low = static_cast<float>(at);
+        line.boxes.push_back({{low, 0, 0}, {1.5f * low, 0, 0}});
+    }
+    const auto count = static_cast<std::uint32_t>(line.boxes.size());
+    line.offsets.push_back(count);
+    options.bins = 2;
+    for (const std::uint32_t levels : {100u, 1000u}) {
+        options.max_levels = levels;
+        check(line, options, quality_rules());
+        const std::uint32_t depth = reference_topdown(line.boxes, {}, line.offsets, options, quality_rules()).depth;
+        CHECK(depth == (levels == 100 ? 100 + std::bit_width(count - 101) : count - 1));
+    }
 }
 
 TEST_CASE("topdown: strategies in OpenCL of one's own") {
     TopDownOptions options = quality_options(1);
     options.source =
-        "inline float width(const Distribution* d, Box box) {\n"
-        "    return extent_of(box).x / extent_of(d->root).x;\n"
-        "}\n"
+        std::string(width_source) +
         "inline float squares(const Distribution* d, const Pair* pair) {\n"
         "    return pair->left_chance * pair->left_count + 2.0f * pair->right_chance * pair->right_count;\n"
         "}\n"
@@ -256,9 +316,7 @@ TEST_CASE("topdown: strategies in OpenCL of one's own") {
     options.axes = "last_axis";
     options.stop = "at_seven";
     ReferenceRules rules = quality_rules();
-    rules.measure = [](const Aabb& root, const Aabb& box) {
-        return (box.max[0] - box.min[0]) / (root.max[0] - root.min[0]);
-    };
+    rules.measure = width;
     rules.axes = [](const Aabb&, std::uint32_t) { return std::array<float, 3>{0.0f, 0.5f, 1.0f}; };
     rules.thresholds = true;
     const Boxes forest = random_boxes({many() / 4}, Spread::sizes, 31);

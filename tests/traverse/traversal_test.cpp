@@ -3,7 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
 
+#include "boxwood/build.hpp"
 #include "oracles/brute_force.hpp"
 #include "oracles/reference_builder.hpp"
 #include "oracles/reference_obb.hpp"
@@ -164,6 +168,36 @@ TEST_CASE("traversal: the deepest tree fills the stack and no more") {
             rays.push_back({{-1.0f, 0.99f, 1.5f}, 0.0f, {1.0f, 0.0f, 0.0f}, end + 2.0f});
         }
         check_all_queries(scene, rays, Shape::chain);
+    }
+}
+
+TEST_CASE("traversal: built trees that are as deep as builders make them") {
+    // Each triangle more than twice as far and as large as the one before: halves in space part off one at a time, and what is
+    // left below max_levels of 100 is halved by number.
+    Mesh mesh;
+    std::vector<Ray> rays;
+    for (double at = 0x1p-60; at < 0x1p58; at *= 2.1) {
+        const auto x = static_cast<float>(at);
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {{x, -x, -x}, {x, x, -x}, {x, 0.0f, 2.0f * x}});
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+        if (small_sizes() && mesh.triangles.size() % 20 != 0) continue;
+        const float t_max = std::numeric_limits<float>::infinity();
+        for (const float way : {-1.0f, 1.0f}) rays.push_back({{1.5f * x, 0.0f, 0.0f}, 0.0f, {way, 0.0f, 0.0f}, t_max});
+    }
+    const Scene scene = single(mesh);
+    const std::vector<Hit> expected = BruteForce(scene, Levels::one).closest_hits(rays);
+    for (const Builder builder : {Builder::sah, Builder::midpoint}) {
+        for (const Layout layout : {Layout::binary, Layout::wide8}) {
+            const TreeImage tree = download(test_device(), build(test_device(), scene, {Levels::one, layout, builder}));
+            CHECK_NOTHROW(validate(tree, scene, "tree"));
+            if (builder == Builder::midpoint && layout == Layout::binary)
+                CHECK(tree.bottom_depth == 100 + std::bit_width(mesh.triangles.size() - 101));
+            CHECK(count_different(trace(tree, rays), expected) == 0);
+            const std::vector<std::uint32_t> any = trace_any(tree, rays);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                CHECK(any[i] == (expected[i].primitive == BOXWOOD_NONE ? 0u : 1u));
+        }
     }
 }
 
