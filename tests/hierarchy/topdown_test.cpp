@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <bit>
-#include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "boxwood/error.hpp"
 #include "boxwood/topdown.hpp"
-#include "hierarchy/forest_scene.hpp"
-#include "oracles/reference_topdown.hpp"
-#include "support.hpp"
+#include "hierarchy/forest.hpp"
+#include "hierarchy/topdown_boxes.hpp"
 #include "tuning.hpp"
 
 using namespace boxwood;
@@ -20,94 +16,10 @@ TEST_SUITE_BEGIN("hierarchy");
 
 namespace {
 
-struct Result {
-    HostTopology topology;
-    std::vector<std::uint32_t> leaves;
-    std::uint64_t splits, axes_tried, fallbacks;
-};
-
-struct Boxes {
-    std::vector<Aabb> boxes;
-    std::vector<std::uint32_t> offsets{0};
-    std::vector<float> centres; ///< Empty: the middles of the boxes.
-};
-
-Result run(const Boxes& forest, const TopDownOptions& options, const std::vector<InfluenceRecord>& areas = {},
-           const std::vector<std::uint32_t>& area_starts = {}) {
-    Device& device = test_device();
-    const Buffer<Aabb> boxes = upload(device, forest.boxes, "boxes");
-    const Buffer<float> centres = upload(device, forest.centres, "centres");
-    const Buffer<InfluenceRecord> records = upload(device, areas, "areas");
-    const Buffer<std::uint32_t> starts = upload(device, area_starts, "area starts");
-    const TopDownTree tree =
-        topdown(device, boxes, centres, upload(device, forest.offsets, "offsets"), records, starts, options);
-    return {to_host(device, tree.topology), download(device, tree.leaves), tree.splits, tree.axes_tried,
-            tree.fallbacks};
-}
-
-/// Boxes of triangles spread in a cube, or in a plane, or on few places.
-enum class Spread { cube, plane, line, places, sizes };
-
-Boxes random_boxes(const std::vector<std::uint32_t>& sizes, Spread spread, std::uint64_t salt) {
-    Random random(salt);
-    Boxes forest;
-    for (const std::uint32_t size : sizes) {
-        for (std::uint32_t i = 0; i < size; ++i) {
-            Aabb box;
-            const float half = spread == Spread::sizes ? std::exp2(random.uniform(-12.0f, 2.0f)) : 0.02f;
-            for (int k = 0; k < 3; ++k) {
-                float place = random.uniform(-1.0f, 1.0f), extent = random.uniform(0.0f, half);
-                if (spread == Spread::places) place = std::floor(2.0f * place), extent = 0.25f;
-                const bool flat = (spread == Spread::plane && k == 1) || (spread == Spread::line && k != 2);
-                if (flat) place = 0.5f, extent = 0.0f;
-                box.min[k] = place - extent;
-                box.max[k] = place + extent;
-            }
-            forest.boxes.push_back(box);
-        }
-        forest.offsets.push_back(static_cast<std::uint32_t>(forest.boxes.size()));
-    }
-    return forest;
-}
-
-Boxes scaled(Boxes forest, float factor) {
-    for (Aabb& box : forest.boxes)
-        for (int k = 0; k < 3; ++k) box.min[k] *= factor, box.max[k] *= factor;
-    return forest;
-}
-
-/// The same trees as recursion gives, node by node, and the same counts.
-void check(const Boxes& forest, const TopDownOptions& options, const ReferenceRules& rules) {
-    const Result result = run(forest, options);
-    const ReferenceTree wanted = reference_topdown(forest.boxes, forest.centres, forest.offsets, options, rules);
-    CHECK(difference(result.topology, wanted.topology) == "");
-    CHECK(result.leaves == wanted.leaves);
-    CHECK(result.splits == wanted.splits);
-    CHECK(result.axes_tried == wanted.axes_tried);
-    CHECK(result.fallbacks == wanted.fallbacks);
-}
-
-TopDownOptions quality_options(std::uint32_t block) {
-    TopDownOptions options;
-    options.axes = "all_axes";
-    options.stop = "never";
-    options.block = block;
-    return options;
-}
-
-ReferenceRules quality_rules() {
-    ReferenceRules rules = reference_rules();
-    rules.axes = reference_all;
-    rules.thresholds = false;
-    return rules;
-}
-
 constexpr const char* width_source = "inline float width(const Distribution* d, Box box) {\n"
                                      "    return extent_of(box).x / extent_of(d->root).x;\n"
                                      "}\n";
 float width(const Aabb& root, const Aabb& box) { return (box.max[0] - box.min[0]) / (root.max[0] - root.min[0]); }
-
-std::uint32_t many() { return small_sizes() ? 150 : 3000; }
 
 } // namespace
 
@@ -231,72 +143,6 @@ TEST_CASE("topdown: halves in the middle of the longest axis") {
     rules.thresholds = false;
     check(random_boxes({many() / 2}, Spread::sizes, 19), options, rules);
     check(random_boxes({many() / 2}, Spread::places, 19), options, rules);
-}
-
-TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted without an absolute size") {
-    for (const float place : {0.0f, 1.0f, -1e18f, 1e-38f}) {
-        CAPTURE(place);
-        const Boxes forest{std::vector<Aabb>(100, {{place, place, place}, {place, place, place}}), {0, 100}, {}};
-        check(forest, quality_options(1), quality_rules());
-        check(forest, quality_options(4), quality_rules());
-    }
-    // About the same place, of all sizes: large nodes that no plane parts.
-    Boxes nested{{}, {0, many()}, {}};
-    for (std::uint32_t i = 0; i < many(); ++i) {
-        const float half = std::ldexp(static_cast<float>(1 + i % 7), static_cast<int>(i % 100) - 50);
-        nested.boxes.push_back({{-half, -half, -half}, {half, half, half}});
-    }
-    check(nested, quality_options(1), quality_rules());
-    Boxes mixed = random_boxes({many() / 4}, Spread::cube, 23);
-    mixed.boxes[5] = {{-1e17f, -1e17f, -1e17f}, {1e17f, 1e17f, 1e17f}};
-    mixed.boxes[6] = {{1e17f, 1e17f, 1e17f}, {1e17f, 1e17f, 1e17f}};
-    check(mixed, quality_options(1), quality_rules());
-}
-
-TEST_CASE("topdown: scaling by powers of two changes nothing") {
-    const Boxes forest = random_boxes({many() / 2, 65}, Spread::sizes, 29);
-    TopDownOptions paper;
-    paper.bin_box = true;
-    for (const TopDownOptions& options : {quality_options(1), quality_options(4), paper}) {
-        const Result wanted = run(forest, options);
-        for (const float factor : {0x1p-60f, 0x1p-7f, 0x1p60f}) {
-            CAPTURE(factor);
-            const Result result = run(scaled(forest, factor), options);
-            CHECK(difference(result.topology, wanted.topology) == "");
-            CHECK(result.leaves == wanted.leaves);
-        }
-    }
-}
-
-TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
-    // Every box twice as far and as large as the one before: planes part off a few each time.
-    Boxes forest;
-    for (int i = 0; i < 120; ++i) {
-        const float at = std::exp2(static_cast<float>(i) - 60.0f);
-        forest.boxes.push_back({{at, at, at}, {1.5f * at, 1.5f * at, 1.5f * at}});
-    }
-    forest.offsets.push_back(120);
-    TopDownOptions options = quality_options(1);
-    check(forest, options, quality_rules());
-    CHECK(reference_topdown(forest.boxes, {}, forest.offsets, options, quality_rules()).depth > 20);
-    options.max_levels = 7;
-    check(forest, options, quality_rules());
-    CHECK(reference_topdown(forest.boxes, {}, forest.offsets, options, quality_rules()).depth <= 7 + 7);
-    // Along one axis, over most of the numbers that a coordinate may be: two slices part off one box at a time.
-    Boxes line;
-    for (double at = 0x1p-120; at < 0x1p59; at *= 2.1) {
-        const auto low = static_cast<float>(at);
-        line.boxes.push_back({{low, 0, 0}, {1.5f * low, 0, 0}});
-    }
-    const auto count = static_cast<std::uint32_t>(line.boxes.size());
-    line.offsets.push_back(count);
-    options.bins = 2;
-    for (const std::uint32_t levels : {100u, 1000u}) {
-        options.max_levels = levels;
-        check(line, options, quality_rules());
-        const std::uint32_t depth = reference_topdown(line.boxes, {}, line.offsets, options, quality_rules()).depth;
-        CHECK(depth == (levels == 100 ? 100 + std::bit_width(count - 101) : count - 1));
-    }
 }
 
 TEST_CASE("topdown: strategies in OpenCL of one's own") {
