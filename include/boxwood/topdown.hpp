@@ -11,8 +11,12 @@
 
 namespace boxwood {
 
-/// How a top-down builder splits nodes (paper section 8, thesis 5.1). The strategy is OpenCL functions by name, those of
-/// cl/hierarchy/strategies.h or the caller's own in `source`; see CONTRIBUTING.md.
+/// How a top-down builder splits nodes (paper section 8, thesis 5.1). The strategy is OpenCL functions by name, the caller's own in
+/// `source` (see CONTRIBUTING.md) or these, of cl/hierarchy/strategies.h and distribution.h:
+/// - measures: surface_measure, of rays from everywhere; projected_measure, of the areas' rays; expected_measure, of all;
+/// - costs: measured_cost, of the primitives on both sides; overlap_cost, and of what the sides share;
+/// - axes: longest_axes; facing_axes, those that the areas' rays see edge-on; round_robin_axes, by level; all_axes, alike;
+/// - stops: threshold_stop, by the max_leaf_ thresholds; never.
 struct TopDownOptions {
     std::string measure = "surface_measure"; ///< Chance that a ray of the distribution meets a box.
     std::string cost = "measured_cost";      ///< Cost of a pair of children.

@@ -316,39 +316,43 @@ TEST_CASE("build: the same bytes every time and at every tuning") {
 TEST_CASE("build: each of 50 meshes has the tree that it has alone") {
     std::vector<Mesh> meshes;
     for (std::uint32_t i = 0; i < 50; ++i) meshes.push_back(random_mesh(1 + 7 * i % 40, 1.0f, 0.1f, i));
-    const TreeImage all = build_image(scene_of(meshes), {Levels::two, Layout::binary});
-    std::uint32_t first = 0;
-    for (const Mesh& mesh : meshes) {
-        TreeImage alone = build_image(scene_of({mesh}), {Levels::one, Layout::binary});
-        const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-        for (BinaryNode& node : alone.binary_nodes)
-            for (std::uint32_t& child : node.child)
-                if (child != BOXWOOD_NONE) child += first;
-        const auto part = [&](const auto& from) {
-            return std::remove_cvref_t<decltype(from)>(from.begin() + first, from.begin() + first + count);
-        };
-        CHECK(same_bits(part(all.binary_nodes), alone.binary_nodes));
-        CHECK(same_bits(part(all.triangles), alone.triangles));
-        first += count;
+    for (const Builder builder : {Builder::lbvh, Builder::sah}) {
+        const TreeImage all = build_image(scene_of(meshes), {Levels::two, Layout::binary, builder});
+        std::uint32_t first = 0;
+        for (const Mesh& mesh : meshes) {
+            TreeImage alone = build_image(scene_of({mesh}), {Levels::one, Layout::binary, builder});
+            const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+            for (BinaryNode& node : alone.binary_nodes)
+                for (std::uint32_t& child : node.child)
+                    if (child != BOXWOOD_NONE) child += first;
+            const auto part = [&](const auto& from) {
+                return std::remove_cvref_t<decltype(from)>(from.begin() + first, from.begin() + first + count);
+            };
+            CHECK(same_bits(part(all.binary_nodes), alone.binary_nodes));
+            CHECK(same_bits(part(all.triangles), alone.triangles));
+            first += count;
+        }
     }
 }
 
 TEST_CASE("build: a scene scaled by a power of two has the same tree, scaled") {
     const Mesh mesh = random_mesh(500, 1.0f, 0.1f, 4);
-    const BuildOptions options{Levels::one, Layout::wide8, Builder::lbvh, MortonBits::bits63};
-    const TreeImage plain = build_image(scene_of({mesh}), options);
-    for (const int k : {-60, -40, 40, 59}) {
-        CAPTURE(k);
-        Mesh scaled = mesh;
-        for (glm::vec3& p : scaled.positions) p = {std::ldexp(p.x, k), std::ldexp(p.y, k), std::ldexp(p.z, k)};
-        TreeImage expected = plain;
-        for (Wide8Node& node : expected.wide_nodes)
-            for (auto* bounds : {&node.min_x, &node.max_x, &node.min_y, &node.max_y, &node.min_z, &node.max_z})
-                for (float& x : *bounds) x = std::ldexp(x, k);
-        for (Triangle4& b : expected.blocks)
-            for (auto* lanes :
-                 {&b.v0_x, &b.v0_y, &b.v0_z, &b.edge1_x, &b.edge1_y, &b.edge1_z, &b.edge2_x, &b.edge2_y, &b.edge2_z})
-                for (float& x : *lanes) x = std::ldexp(x, k);
-        CHECK(same_trees(build_image(scene_of({scaled}), options), expected));
+    for (const Builder builder : {Builder::lbvh, Builder::sah}) {
+        const BuildOptions options{Levels::one, Layout::wide8, builder, MortonBits::bits63};
+        const TreeImage plain = build_image(scene_of({mesh}), options);
+        for (const int k : {-60, -40, 40, 59}) {
+            CAPTURE(k);
+            Mesh scaled = mesh;
+            for (glm::vec3& p : scaled.positions) p = {std::ldexp(p.x, k), std::ldexp(p.y, k), std::ldexp(p.z, k)};
+            TreeImage expected = plain;
+            for (Wide8Node& node : expected.wide_nodes)
+                for (auto* bounds : {&node.min_x, &node.max_x, &node.min_y, &node.max_y, &node.min_z, &node.max_z})
+                    for (float& x : *bounds) x = std::ldexp(x, k);
+            for (Triangle4& b : expected.blocks)
+                for (auto* lanes : {&b.v0_x, &b.v0_y, &b.v0_z, &b.edge1_x, &b.edge1_y, &b.edge1_z, &b.edge2_x,
+                                    &b.edge2_y, &b.edge2_z})
+                    for (float& x : *lanes) x = std::ldexp(x, k);
+            CHECK(same_trees(build_image(scene_of({scaled}), options), expected));
+        }
     }
 }

@@ -3,6 +3,7 @@
 //
 // compile:
 #include "shared/aabb.h"
+#include "shared/area.h"
 #include "shared/camera.h"
 #include "shared/instance.h"
 #include "shared/light.h"
@@ -10,7 +11,9 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/topdown.h"
 #include "shared/triangle.h"
+#include "shared/visits.h"
 
 #define OFFSET(type, member) (uint)((size_t)&((private type*)0)->member)
 
@@ -53,7 +56,20 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         sizeof(LightRecord), OFFSET(LightRecord, position), OFFSET(LightRecord, kind), OFFSET(LightRecord, direction),
         OFFSET(LightRecord, range), OFFSET(LightRecord, intensity), OFFSET(LightRecord, inverse_size),
         OFFSET(LightRecord, edges), OFFSET(LightRecord, cone_scale), OFFSET(LightRecord, cone_edge),
-        OFFSET(LightRecord, instance), OFFSET(LightRecord, primitive), OFFSET(LightRecord, two_sided)};
+        OFFSET(LightRecord, instance), OFFSET(LightRecord, primitive), OFFSET(LightRecord, two_sided),
+        sizeof(InfluenceRecord), OFFSET(InfluenceRecord, origin), OFFSET(InfluenceRecord, point),
+        OFFSET(InfluenceRecord, right), OFFSET(InfluenceRecord, half_width), OFFSET(InfluenceRecord, up),
+        OFFSET(InfluenceRecord, half_height), OFFSET(InfluenceRecord, forward), OFFSET(InfluenceRecord, near),
+        OFFSET(InfluenceRecord, far), OFFSET(InfluenceRecord, sin_tolerance), OFFSET(InfluenceRecord, share),
+        OFFSET(InfluenceRecord, reserved), sizeof(LocalArea), OFFSET(LocalArea, region), OFFSET(LocalArea, box),
+        OFFSET(LocalArea, root), OFFSET(LocalArea, reserved), sizeof(AreaNode), OFFSET(AreaNode, split),
+        OFFSET(AreaNode, axis), OFFSET(AreaNode, first), OFFSET(AreaNode, count), sizeof(RayVisits),
+        OFFSET(RayVisits, nodes), OFFSET(RayVisits, primitives), OFFSET(RayVisits, nodes_to_hit),
+        OFFSET(RayVisits, primitives_to_hit), sizeof(Thresholds), OFFSET(Thresholds, max_leaf_cost),
+        OFFSET(Thresholds, max_leaf_area), OFFSET(Thresholds, max_leaf_hit_probability),
+        OFFSET(Thresholds, max_leaf_primitives), OFFSET(Thresholds, max_levels),
+        OFFSET(Thresholds, max_non_fallback_levels), OFFSET(Thresholds, split_plane_quality),
+        OFFSET(Thresholds, acceptable_children), OFFSET(Thresholds, excellent_children), OFFSET(Thresholds, reserved)};
     const uint count = sizeof(values) / sizeof(uint);
     out[0] = count;
     for (uint i = 0; i < count; ++i) out[1 + i] = values[i];

@@ -5,6 +5,7 @@
 
 #include "runtime/launch.hpp"
 #include "shared/aabb.h"
+#include "shared/area.h"
 #include "shared/camera.h"
 #include "shared/instance.h"
 #include "shared/light.h"
@@ -12,7 +13,9 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/topdown.h"
 #include "shared/triangle.h"
+#include "shared/visits.h"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -60,7 +63,21 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(LightRecord, kind), offsetof(LightRecord, direction), offsetof(LightRecord, range),
         offsetof(LightRecord, intensity), offsetof(LightRecord, inverse_size), offsetof(LightRecord, edges),
         offsetof(LightRecord, cone_scale), offsetof(LightRecord, cone_edge), offsetof(LightRecord, instance),
-        offsetof(LightRecord, primitive), offsetof(LightRecord, two_sided)};
+        offsetof(LightRecord, primitive), offsetof(LightRecord, two_sided),
+        sizeof(InfluenceRecord), offsetof(InfluenceRecord, origin), offsetof(InfluenceRecord, point),
+        offsetof(InfluenceRecord, right), offsetof(InfluenceRecord, half_width), offsetof(InfluenceRecord, up),
+        offsetof(InfluenceRecord, half_height), offsetof(InfluenceRecord, forward), offsetof(InfluenceRecord, near),
+        offsetof(InfluenceRecord, far), offsetof(InfluenceRecord, sin_tolerance), offsetof(InfluenceRecord, share),
+        offsetof(InfluenceRecord, reserved), sizeof(LocalArea), offsetof(LocalArea, region), offsetof(LocalArea, box),
+        offsetof(LocalArea, root), offsetof(LocalArea, reserved), sizeof(AreaNode), offsetof(AreaNode, split),
+        offsetof(AreaNode, axis), offsetof(AreaNode, first), offsetof(AreaNode, count), sizeof(RayVisits),
+        offsetof(RayVisits, nodes), offsetof(RayVisits, primitives), offsetof(RayVisits, nodes_to_hit),
+        offsetof(RayVisits, primitives_to_hit), sizeof(Thresholds), offsetof(Thresholds, max_leaf_cost),
+        offsetof(Thresholds, max_leaf_area), offsetof(Thresholds, max_leaf_hit_probability),
+        offsetof(Thresholds, max_leaf_primitives), offsetof(Thresholds, max_levels),
+        offsetof(Thresholds, max_non_fallback_levels), offsetof(Thresholds, split_plane_quality),
+        offsetof(Thresholds, acceptable_children), offsetof(Thresholds, excellent_children),
+        offsetof(Thresholds, reserved)};
     // clang-format on
     Guarded<std::uint32_t> out(test_device(), 1 + expected.size());
     launch(test_device(), {"runtime/layout_test.cl", "layout_test"}, "layout test", 1, out.view());
