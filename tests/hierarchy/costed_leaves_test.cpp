@@ -134,6 +134,13 @@ TEST_CASE("a subtree is one leaf where that costs less") {
     }
 }
 
+TEST_CASE("no trees have no leaves") {
+    Device& device = test_device();
+    Topology none;
+    none.offsets = upload(device, std::vector{0u}, "offsets");
+    CHECK(costed_leaves(device, none, {}, {}, {}, upload(device, std::vector{0u}, "starts")).size() == 0);
+}
+
 TEST_CASE("no other choice of leaves costs less") {
     // 16 triangles: up to some hundred choices for a tree in balance; in crowds, so that leaves of all sizes are best.
     Device& device = test_device();
