@@ -52,7 +52,8 @@ INLINE bool is_direction_affine(global const InfluenceRecord* area, float3 origi
            sine * sine * ((a.x * a.x + a.y * a.y) + a.z * a.z) * ((b.x * b.x + b.y * b.y) + b.z * b.z);
 }
 
-/// Until when a ray that nears a side at `speed` is sure not to cross it.
+/// Until when a ray that nears a side at `speed` is sure not to cross it. The factor, 1 - 16 e, covers what rounds relatively: room
+/// and speed (e each), two quotients (5 e each, the second area_exit's) and the product (e).
 INLINE float time_to_side(float room, float speed) {
     return speed > 0.0f ? fmax(room, 0.0f) / speed * (1.0f - 0x1p-20f) : FLT_MAX;
 }
@@ -76,7 +77,7 @@ INLINE float area_exit(global const InfluenceRecord* area, float3 origin, float3
     time = fmin(time, time_to_side(area->far * (1.0f - ROOM_ROUNDING) - rounding - p.z, v.z + SPEED_ROUNDING));
     time = fmin(time, time_to_side(p.z - area->near * (1.0f + ROOM_ROUNDING) - rounding, SPEED_ROUNDING - v.z));
     const float exit = fmin(time / scale, FLT_MAX);
-    return exit >= FLT_MIN ? exit : 0.0f; // below, its rounding is not relative
+    return fmin(time, exit) >= FLT_MIN ? exit : 0.0f; // below, rounding is not relative
 }
 
 #endif

@@ -67,8 +67,11 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 /// local tree has all of these and those so near that rounding could bring them in (cl/hierarchy/area_triangles.cl). So every
 /// triangle that the ray hits at t <= exit is in the local tree. The local search covers (t_min, exit], ends included as
 /// ray_triangle() has them: a hit there is the smallest t of all triangles, and the lowest of all at that t. Without one
-/// nothing is hit up to the exit, and the global tree is searched over (exit, t_max]. A local hit beyond the exit would be none
-/// of the two: a triangle without a point in the region may be nearer.
+/// nothing is hit up to the exit, and the global tree is searched for boxes that the ray meets in [exit, t_max]. A local hit beyond
+/// the exit would be none of the two: a triangle without a point in the region may be nearer.
+///
+/// A triangle that the ray grazes beyond the exit may have a computed t before it: t rounds by the distance over the sine of the
+/// angle between them. Its box reaches beyond the exit, so it is met, and its hit counts, as t_start has not moved.
 ///
 /// Any hit: a triangle of the local tree is one of the scene, so a hit in it is an answer wherever it lies.
 INLINE void traverse_areas(const LocalRay* ray, const Areas* areas, const Arrays* arrays, Walk* walk, entry_t* stack) {
@@ -119,6 +122,9 @@ INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Wa
     if (!is_valid_ray(origin, direction)) return false;
     make_local_ray(origin.xyz, direction.xyz * *scale, ray);
     walk->t_min = origin.w * to_scaled;
+#if AREAS
+    walk->t_start = walk->t_min;
+#endif
     // No hit at an infinite distance, in either unit: that is how a miss is written.
     walk->t_max = fmin(fmin(direction.w, FLT_MAX) * to_scaled, FLT_MAX);
     return true;

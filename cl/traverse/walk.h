@@ -25,7 +25,10 @@ typedef struct Arrays {
 
 /// The stack itself is a variable of its own: an array inside would keep the whole struct out of registers.
 typedef struct Walk {
-    float t_min;
+    float t_min; ///< Boxes are met from there on.
+#if AREAS
+    float t_start; ///< Hits lie beyond it: at t_min or before.
+#endif
     float t_max; ///< Where the search ends: t of the best hit, once there is one. Always finite.
     float u, v;
     uint primitive; ///< BOXWOOD_NONE until something is hit.
@@ -47,7 +50,12 @@ INLINE void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint inst
 #endif
 #endif
     Crossing crossing;
-    uint hits = ray_triangle(ray, leaf, walk->t_min, walk->t_max, &crossing);
+#if AREAS
+    const float t_min = walk->t_start;
+#else
+    const float t_min = walk->t_min;
+#endif
+    uint hits = ray_triangle(ray, leaf, t_min, walk->t_max, &crossing);
 #if ANY_HIT
     if (hits != 0) walk->primitive = 0;
 #elif LAYOUT == 8

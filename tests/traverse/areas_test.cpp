@@ -196,6 +196,29 @@ TEST_CASE("areas: equal brute force on random triangles and instances") {
     check_areas(scene, areas, rays, BruteForce(scene, Levels::one).closest_hits(rays));
 }
 
+TEST_CASE("areas: equal brute force on the smallest and the largest scenes") {
+    Random random(55);
+    for (const float scale : {0x1p-50f, 0x1p50f}) {
+        CAPTURE(scale);
+        Mesh mesh = random_mesh(random, small_sizes() ? 9 : 300, 0.3f);
+        for (glm::vec3& p : mesh.positions) p *= scale;
+        const Scene scene = single(mesh);
+        const Bounds3 bounds = bounds_of(scene);
+        const std::vector<InfluenceArea> areas = sample_areas(bounds);
+        std::vector<Ray> rays = area_rays(random, areas, bounds, ray_count(2000));
+        for (Ray& ray : rays) { // as kernels do themselves, the oracle does not
+            const float size =
+                std::max({std::abs(ray.direction[0]), std::abs(ray.direction[1]), std::abs(ray.direction[2])});
+            const float unit = std::exp2(std::floor(std::log2(size)));
+            for (float& d : ray.direction) d /= unit;
+            ray.t_min *= unit;
+            ray.t_max *= unit;
+        }
+        const Searches found = check_areas(scene, areas, rays, BruteForce(scene, Levels::one).closest_hits(rays));
+        if (!small_sizes()) CHECK(found.local > rays.size() / 20);
+    }
+}
+
 TEST_CASE("areas: equal the tree without areas on every procedural kind") {
     Random random(51);
     for (const ProceduralKind& kind : procedural_kinds()) {
@@ -233,6 +256,43 @@ TEST_CASE("areas: a hit in the local tree beyond the region is not the closest")
     const Searches found = check_areas(scene, {area}, rays, expected);
     CHECK(found.local == 1);
     CHECK(found.continued == 2);
+}
+
+TEST_CASE("areas: a hit beyond the region that rounds to before the exit is not lost") {
+    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates. It begins at
+    // z = 1.005, farther from the region, which ends at 1, than local trees reach. A small one inside makes the tree.
+    Random random(54);
+    std::size_t before = 0;
+    for (int i = 0; i < (small_sizes() ? 2 : 20); ++i) {
+        const double angle = random.uniform(0.0f, 6.28f), lean = 0x1p-19;
+        const glm::dvec3 along(-std::sin(angle), std::cos(angle), 0.0),
+            up(lean * std::cos(angle), lean * std::sin(angle), 1.0);
+        const glm::dvec3 base(random.uniform(-0.5f, 0.5f), random.uniform(-0.5f, 0.5f), 1.005);
+        Mesh mesh;
+        for (const glm::dvec3& p : {base - 4.0 * along, base + 5.0 * along, base + along + 9.0 * up})
+            mesh.positions.emplace_back(p);
+        mesh.positions.insert(mesh.positions.end(), {{0.9f, 0.9f, 0.5f}, {0.95f, 0.9f, 0.5f}, {0.9f, 0.95f, 0.5f}});
+        mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+        const Scene scene = single(mesh);
+        InfluenceArea area;
+        area.direction = {0, 0, 1};
+        area.far = 1.0;
+        std::vector<Ray> rays;
+        for (std::uint32_t k = 0; k < ray_count(400); ++k) {
+            glm::dvec3 hit =
+                base + double(random.uniform(-0.4f, 0.4f)) * along + double(random.uniform(0.0f, 0.1f)) * up;
+            hit.z = random.uniform(0.1f, 0.4f);
+            rays.push_back(ray_of(hit, {0, 0, 1}));
+        }
+        const std::vector<Hit> expected = BruteForce(scene, Levels::one).closest_hits(rays);
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            before += expected[k].primitive == 0 && expected[k].t + rays[k].origin[2] < 0.999f;
+        BuildReport report;
+        built(scene, Layout::wide8, {area}, AreaIndexKind::list, &report);
+        REQUIRE(report.areas[0].triangles == 1);
+        check_areas(scene, {area}, rays, expected);
+    }
+    if (!small_sizes()) CHECK(before > 100);
 }
 
 TEST_CASE("areas: distances tied on the face where rays leave the region, the lowest primitive wins") {
@@ -286,3 +346,5 @@ TEST_CASE("areas: two levels, oriented boxes and animation are refused") {
     CHECK_THROWS_AS(AnimatedTree(test_device(), scene, options), InputError);
     CHECK_NOTHROW(build(test_device(), scene, options));
 }
+
+TEST_SUITE_END();
