@@ -83,7 +83,8 @@ bool intersects(const InfluenceRecord& area, const Aabb& box) {
     const glm::dvec3 right = vector(area.right), up = vector(area.up), forward = vector(area.forward);
 
     std::vector<glm::dvec3> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, forward};
-    std::vector<glm::dvec3> edges{points[1] - points[0], points[2] - points[0]};
+    // Of the far face: the near one of a region from the eye on is a point.
+    std::vector<glm::dvec3> edges{points[5] - points[4], points[6] - points[4]};
     if (area.point == 0) {
         normals.insert(normals.end(), {right, up});
         edges.push_back(points[4] - points[0]);
@@ -107,13 +108,16 @@ bool intersects(const InfluenceRecord& area, const Aabb& box) {
 Aabb enclosing_box(const InfluenceRecord& area) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Aabb box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    // The corners are off by a few roundings in double precision: less than one in float, which is added outwards.
-    for (const glm::dvec3& corner : corners(area))
+    for (const glm::dvec3& local : local_corners(area)) {
+        // A few roundings of the largest term, which the origin may cancel, and one to float.
+        const double reach = std::abs(local.x) + std::abs(local.y) + std::abs(local.z);
         for (int k = 0; k < 3; ++k) {
-            const auto rounded = static_cast<float>(corner[k]);
-            box.min[k] = std::min(box.min[k], rounded < corner[k] ? rounded : std::nextafter(rounded, -infinity));
-            box.max[k] = std::max(box.max[k], rounded > corner[k] ? rounded : std::nextafter(rounded, infinity));
+            const double at = area.origin[k] + local[k];
+            const double rounding = 16 * std::numeric_limits<double>::epsilon() * (std::abs(area.origin[k]) + reach);
+            box.min[k] = std::min(box.min[k], std::nextafter(static_cast<float>(at - rounding), -infinity));
+            box.max[k] = std::max(box.max[k], std::nextafter(static_cast<float>(at + rounding), infinity));
         }
+    }
     return box;
 }
 

@@ -141,6 +141,7 @@ TEST_CASE("regions and boxes: contained, enclosed, met") {
         const double scale = std::exp2(i % 8 == 0 ? double(random.below(117)) - 58 : 0);
         InfluenceRecord area = random_area(random, i % 2 == 1, scale);
         area.far *= random.uniform(0.15f, 0.5f);
+        if (i % 4 == 3) area.near = 0; // from the eye on, as local trees have it
         const Aabb box = random_box(random, (i % 7 == 0 ? 4 : 1) * scale, random_place(random, area, scale));
         INFO("case " << i);
         // Closer than that, either is right.
@@ -165,7 +166,8 @@ TEST_CASE("regions and boxes: contained, enclosed, met") {
                   (most[k] - least[k]) + 0x1p-22 * (std::abs(least[k]) + std::abs(most[k])));
         }
         // Points between the corners are inside; those a little beyond the corners are not.
-        const glm::dvec3 middle = (points[0] + points[7]) / 2.0;
+        glm::dvec3 middle(0);
+        for (const glm::dvec3& p : points) middle += p / 8.0;
         CHECK(contains(area, middle));
         for (const glm::dvec3& p : points) {
             CHECK(contains(area, p + (middle - p) * 1e-9));
@@ -187,6 +189,33 @@ TEST_CASE("regions and boxes: contained, enclosed, met") {
         CHECK(met > 3000);
         CHECK(missed > 3000);
         CHECK(enclosed > 500);
+    }
+}
+
+TEST_CASE("the box around a region is rounded outwards where the origin cancels its corners") {
+    using Vector = glm::vec<3, long double>;
+    const auto wide = [](const float* v) { return Vector(v[0], v[1], v[2]); };
+    Random random(94);
+    for (int i = 0; i < (small_sizes() ? 100 : 20000); ++i) {
+        InfluenceRecord area = random_area(random, i % 2 == 1, 1);
+        for (int k = 0; k < 3; ++k) area.origin[k] = -area.far * area.forward[k];
+        if (i % 4 < 2) // then corners, not the middle of the far face
+            for (int k = 0; k < 3; ++k)
+                area.origin[k] -= (area.point != 0 ? area.far : 1) *
+                                  (area.half_width * area.right[k] + area.half_height * area.up[k]);
+        const glm::mat<3, 3, long double> world = glm::inverse(
+            glm::transpose(glm::mat<3, 3, long double>(wide(area.right), wide(area.up), wide(area.forward))));
+        const Aabb box = enclosing_box(area);
+        for (int c = 0; c < 8; ++c) {
+            const long double depth = c < 4 ? area.near : area.far, unit = area.point != 0 ? depth : 1;
+            const Vector local((c & 1 ? 1 : -1) * unit * area.half_width, (c & 2 ? 1 : -1) * unit * area.half_height,
+                               depth);
+            const Vector corner = wide(area.origin) + world * local;
+            for (int k = 0; k < 3; ++k) {
+                CHECK(box.min[k] <= corner[k]);
+                CHECK(box.max[k] >= corner[k]);
+            }
+        }
     }
 }
 
