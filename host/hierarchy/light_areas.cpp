@@ -2,12 +2,11 @@
 // Influence areas of the rays between surfaces and lights.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "boxwood/influence.hpp"
 #include "boxwood/scene.hpp"
 #include "hierarchy/area_fault.hpp"
-#include "scene/transform.hpp"
+#include "scene/world_box.hpp"
 
 namespace boxwood {
 
@@ -16,32 +15,7 @@ namespace {
 /// Of extents: what regions are larger, so that rays along their sides from surfaces there are inside.
 constexpr double border = 0x1p-10;
 
-/// An interval in each coordinate.
-struct Span {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    double size() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
-};
-
-/// Corners of the boxes of all instances, in world space.
-std::vector<glm::dvec3> scene_corners(const Scene& scene) {
-    std::vector<MeshBounds> bounds;
-    for (const Mesh& mesh : scene.meshes) bounds.push_back(mesh_bounds(mesh.positions));
-    std::vector<glm::dvec3> corners;
-    for (const Instance& instance : scene.instances)
-        for (int i = 0; i < 8; ++i) {
-            glm::dvec4 corner(0, 0, 0, 1);
-            for (int k = 0; k < 3; ++k)
-                corner[k] = (i >> k & 1 ? bounds[instance.mesh].max : bounds[instance.mesh].min)[k];
-            corners.emplace_back(glm::dmat4(instance.transform) * corner);
-        }
-    return corners;
-}
+double largest_component(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// Rows right, up, forward of areas along a direction.
 glm::dmat3 frame_along(const glm::dvec3& direction) {
@@ -59,12 +33,14 @@ glm::dmat3 frame_along(const glm::dvec3& direction) {
 
 class LightAreas {
 public:
-    explicit LightAreas(const Scene& scene) : scene_(scene), corners_(scene_corners(scene)) {
-        for (const glm::dvec3& corner : corners_) world_.add(corner);
+    explicit LightAreas(const Scene& scene) : scene_(scene), corners_(instance_corners(scene)) {
+        DoubleBox world;
+        for (const glm::dvec3& corner : corners_) world.add(corner);
         for (int k = 0; k < 3; ++k) {
-            box_.min[k] = static_cast<float>(world_.low[k]);
-            box_.max[k] = static_cast<float>(world_.high[k]);
+            box_.min[k] = static_cast<float>(world.lower[k]);
+            box_.max[k] = static_cast<float>(world.upper[k]);
         }
+        rounding_ = 0x1p-20 * std::max(largest_component(world.lower), largest_component(world.upper));
     }
 
     void add(const Light& light) {
@@ -119,10 +95,10 @@ private:
 
     void add_directional(const glm::dvec3& direction) {
         const glm::dmat3 frame = frame_along(direction);
-        Span span;
+        DoubleBox span;
         for (const glm::dvec3& corner : corners_) span.add(frame * corner);
-        const double rim = border * span.size();
-        const glm::dvec3 middle = 0.5 * (span.low + span.high), half = 0.5 * (span.high - span.low) + rim;
+        const double rim = border * largest_component(span.extents()) + rounding_;
+        const glm::dvec3 middle = span.middle(), half = 0.5 * span.extents() + rim;
         InfluenceArea area;
         area.origin = glm::transpose(frame) * glm::dvec3(middle.x, middle.y, middle.z - half.z);
         area.direction = direction;
@@ -143,18 +119,18 @@ private:
         area.far = 0;
         for (const glm::dvec3& corner : corners_)
             area.far = std::max(area.far, (frame * (corner - area.origin)).z * (1 + border));
-        area.far = std::min(area.far, double(light.range));
-        area.near = area.far * 0x1p-16;
+        if (area.far > 0) area.far = std::min(area.far + rounding_, double(light.range));
+        area.near = std::max(area.far * 0x1p-16, 1 / double(largest_coordinate));
         if (area_fault(area).empty() && intersects(influence_records({&area, 1}).front(), box_)) keep(area);
     }
 
     void add_rectangle(const std::vector<glm::dvec3>& points, const glm::dvec3& normal) {
         const glm::dmat3 frame = frame_along(normal);
-        Span span;
+        DoubleBox span;
         for (const glm::dvec3& p : points) span.add(frame * p);
-        const double size = span.size();
-        if (span.high.z - span.low.z > border * size) return;
-        const glm::dvec3 middle = 0.5 * (span.low + span.high), half = 0.5 * (span.high - span.low) + border * size;
+        const double size = largest_component(span.extents());
+        if (span.extents().z > border * size) return;
+        const glm::dvec3 middle = span.middle(), half = 0.5 * span.extents() + border * size + rounding_;
         double far = middle.z;
         for (const glm::dvec3& corner : corners_) far = std::max(far, (frame * corner).z);
         InfluenceArea area;
@@ -162,16 +138,17 @@ private:
         area.direction = normal;
         area.half_width = half.x;
         area.half_height = half.y;
-        area.far = (far - middle.z) * (1 + border);
+        if (!(far - middle.z > border * size)) return; // it shines out of the scene
+        area.far = (far - middle.z) * (1 + border) + rounding_;
         area.tolerance_degrees =
             std::clamp(glm::degrees(std::atan2(2 * std::hypot(half.x, half.y), area.far)), 0.5, 45.0);
-        if (area.far > border * size) keep(area); // else it shines out of the scene
+        keep(area);
     }
 
     const Scene& scene_;
     std::vector<glm::dvec3> corners_;
-    Span world_;
-    Aabb box_{};
+    Aabb box_{};          ///< Of the scene.
+    double rounding_ = 0; ///< More than what origins, axes and placed positions round as floats.
     std::vector<InfluenceArea> areas_;
 };
 

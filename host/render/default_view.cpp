@@ -1,50 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Camera, light and distances for scenes that bring none.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <vector>
 
 #include "boxwood/rays.hpp"
+#include "scene/world_box.hpp"
 
 namespace boxwood {
 
 namespace {
 
-struct Box {
-    glm::dvec3 lower{std::numeric_limits<double>::infinity()};
-    glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& point) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
-    std::array<glm::dvec3, 8> corners() const {
-        std::array<glm::dvec3, 8> result;
-        for (int i = 0; i < 8; ++i)
-            result[i] = {(i & 1) ? upper.x : lower.x, (i & 2) ? upper.y : lower.y, (i & 4) ? upper.z : lower.z};
-        return result;
-    }
-};
-
-/// World box of the transformed boxes of the meshes; none for an empty scene.
-std::optional<Box> world_box(const Scene& scene) {
-    if (scene.instances.empty()) return std::nullopt;
-    std::vector<Box> meshes(scene.meshes.size());
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-        for (const glm::vec3& position : scene.meshes[i].positions) meshes[i].add(glm::dvec3(position));
-    Box world;
-    for (const Instance& instance : scene.instances)
-        for (const glm::dvec3& corner : meshes.at(instance.mesh).corners())
-            world.add(glm::dvec3(glm::dmat4(instance.transform) * glm::dvec4(corner, 1.0)));
-    return world;
-}
-
 /// How far back from the middle of `box` a camera with these axes must stand for all corners to be in front of it and
 /// within a square field of view with this tangent of its half angle.
-double fitting_distance(const Box& box, const glm::dvec3& middle, const glm::dmat3& axes, double tangent) {
+double fitting_distance(const DoubleBox& box, const glm::dvec3& middle, const glm::dmat3& axes, double tangent) {
     double distance = 0.0;
     for (const glm::dvec3& corner : box.corners()) {
         const glm::dvec3 local = glm::transpose(axes) * (corner - middle);
@@ -56,7 +24,7 @@ double fitting_distance(const Box& box, const glm::dvec3& middle, const glm::dma
 } // namespace
 
 Camera default_camera(const Scene& scene) {
-    Box box{glm::dvec3(-1.0), glm::dvec3(1.0)};
+    DoubleBox box{glm::dvec3(-1.0), glm::dvec3(1.0)};
     if (const auto world = world_box(scene)) box = *world;
 
     const glm::dvec3 backward = glm::normalize(glm::dvec3(1.0, 0.6, 1.2));
@@ -65,7 +33,7 @@ Camera default_camera(const Scene& scene) {
 
     Camera camera;
     camera.name = "default";
-    const glm::dvec3 middle = 0.5 * box.lower + 0.5 * box.upper;
+    const glm::dvec3 middle = box.middle();
     const double tangent = std::tan(0.5 * static_cast<double>(camera.vertical_fov));
     double distance = fitting_distance(box, middle, axes, tangent);
     if (distance == 0.0) distance = std::max(glm::length(middle), 1.0); // all of it one point: any view will do
@@ -78,14 +46,14 @@ Camera default_camera(const Scene& scene) {
 glm::vec3 default_light(const Scene& scene) {
     const auto box = world_box(scene);
     if (!box) return glm::vec3(0.0f);
-    glm::dvec3 light = 0.5 * box->lower + 0.5 * box->upper;
+    glm::dvec3 light = box->middle();
     light.y = 0.05 * box->lower.y + 0.95 * box->upper.y;
     return glm::vec3(light);
 }
 
 float default_ao_distance(const Scene& scene) {
     const auto box = world_box(scene);
-    const double distance = box ? glm::length(box->upper - box->lower) / 10.0 : 0.0;
+    const double distance = box ? glm::length(box->extents()) / 10.0 : 0.0;
     const auto rounded = static_cast<float>(distance);
     return rounded > 0.0f ? rounded : 1.0f;
 }

@@ -65,6 +65,16 @@ TEST_CASE("areas of lights: a directional light's holds the scene") {
         CHECK(areas[0].far < 12 * scale);
         CHECK(areas[0].half_width < 6 * scale);
     }
+    // Far from the origin, where positions round by a hundredth of the scene.
+    for (int i = 0; i < 30; ++i) {
+        Scene scene = two_tetrahedra();
+        for (Instance& instance : scene.instances) instance.transform[3] += glm::vec4(0x1p20f, -0x1p20f, 0x1.8p20f, 0);
+        scene.lights.push_back(light(LightKind::directional, {}, random_direction(random)));
+        const std::vector<InfluenceArea> areas = areas_from_lights(scene);
+        REQUIRE(areas.size() == 1);
+        const InfluenceRecord record = influence_records(areas)[0];
+        for (const glm::dvec3& p : world_vertices(scene)) CHECK(contains(record, p));
+    }
 }
 
 TEST_CASE("areas of lights: what a point or a spot light lights is in one of its areas") {
@@ -99,6 +109,11 @@ TEST_CASE("areas of lights: what a point or a spot light lights is in one of its
     Light near = light(LightKind::point, {0, 9, 0}, {0, 0, -1});
     near.range = 0.5f; // reaches nothing
     CHECK(covered(near, true) == 0);
+    for (const float scale : {0x1p-52f, 0x1p52f}) { // at the ends of coordinates too
+        Scene far_scene = two_tetrahedra(double(scale));
+        far_scene.lights = {light(LightKind::point, {0.1f * scale, 50 * scale, 0}, {0, 0, -1})};
+        CHECK(areas_from_lights(far_scene).size() == 1);
+    }
     Scene empty;
     empty.lights = {wide};
     CHECK(areas_from_lights(empty).empty());
