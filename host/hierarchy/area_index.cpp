@@ -2,6 +2,7 @@
 #include "boxwood/area_index.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -53,10 +54,11 @@ AreaCells::AreaCells(std::span<const LocalArea> areas) : areas_(areas) {
 }
 
 Aabb AreaCells::widened(const Aabb& box) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
     Aabb wide = box;
-    for (int k = 0; k < 3; ++k) {
-        wide.min[k] -= slack_;
-        wide.max[k] += slack_;
+    for (int k = 0; k < 3; ++k) { // by a float at least, where they are farther apart than the slack
+        wide.min[k] = std::nextafter(wide.min[k] - slack_, -infinity);
+        wide.max[k] = std::nextafter(wide.max[k] + slack_, infinity);
     }
     return wide;
 }

@@ -167,3 +167,44 @@ TEST_CASE("area index: words, no areas, and the choice by their number") {
     CHECK(build_area_index(std::span(many).first(8), AreaIndexKind::automatic).kind == AreaIndexKind::list);
     CHECK(build_area_index(many, AreaIndexKind::automatic).kind == AreaIndexKind::kd);
 }
+
+TEST_CASE("area index: a point beside a region by less than coordinates can tell is found in every kind") {
+    // Floats are 2^-3 apart here. The octree's first split in x is the float that the first region misses by 2^-21, which is within
+    // the rounding of area_contains.
+    std::vector<InfluenceArea> areas(2);
+    for (InfluenceArea& area : areas) area.direction = {0, 0, 1};
+    areas[0].origin.x = 0x1p20;
+    areas[0].half_width = 0.875 - 0x1p-21;
+    areas[1].origin.x = 0x1p20 + 2.0;
+    areas[1].half_width = 0.5;
+    std::vector<LocalArea> local;
+    for (const InfluenceRecord& record : influence_records(areas)) local.push_back(local_area(record));
+    const std::vector<glm::vec3> point{{0x1p20f + 0.875f, 0.0f, 0.5f}};
+    CHECK(!contains(local[0].region, point[0]));
+    const AreaIndex octree = build_area_index(local, AreaIndexKind::octree);
+    CHECK(octree.nodes[0].split[0] == point[0].x);
+    for (const AreaIndexKind kind : all_kinds) {
+        CAPTURE(std::string(name(kind)));
+        CHECK(find_on_device(build_area_index(local, kind), local, point).bits[0] == 1);
+    }
+}
+
+TEST_CASE("area index: as many areas as there can be, all over each other") {
+    // The same region again and again, a little larger each time: no plane parts them.
+    const std::uint32_t count = small_sizes() ? 40 : most_areas;
+    std::vector<InfluenceArea> areas(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        areas[i].direction = {0.3, 1.0, 0.2};
+        areas[i].half_width = areas[i].half_height = areas[i].far = 1.0 + i / 65536.0;
+    }
+    std::vector<LocalArea> local;
+    for (const InfluenceRecord& record : influence_records(areas)) local.push_back(local_area(record));
+    for (const AreaIndexKind kind : {AreaIndexKind::list, AreaIndexKind::kd}) {
+        const AreaIndex index = build_area_index(local, kind);
+        CHECK(index.items.size() >= count);
+        CHECK(find_areas(index, local, {0.15f, 0.5f, 0.1f}).size() == count);
+        CHECK(find_areas(index, local, {5.0f, 0.5f, 0.1f}).empty());
+    }
+}
+
+TEST_SUITE_END();
