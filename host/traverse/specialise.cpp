@@ -9,14 +9,17 @@
 
 namespace boxwood {
 
-std::uint32_t stack_size(const Tree& tree) {
-    const std::uint64_t siblings = tree.layout == Layout::wide8 ? 7 : 1;
-    const std::uint64_t depth = std::uint64_t{tree.bottom_depth} + tree.top_depth;
+std::uint32_t stack_entries(std::uint64_t needed) {
     constexpr std::uint64_t least = 32;
     // 2^18 entries are 2 MiB per work-item; a tree as deep as that is no tree to trace.
     constexpr std::uint64_t most = 1u << 18;
-    if (siblings * depth > most) throw CapacityError("traversal stack entries", siblings * depth, most);
-    return static_cast<std::uint32_t>(std::bit_ceil(std::max(siblings * depth, least)));
+    if (needed > most) throw CapacityError("traversal stack entries", needed, most);
+    return static_cast<std::uint32_t>(std::bit_ceil(std::max(needed, least)));
+}
+
+std::uint32_t stack_size(const Tree& tree) {
+    const std::uint64_t siblings = tree.layout == Layout::wide8 ? 7 : 1;
+    return stack_entries(siblings * (std::uint64_t{tree.bottom_depth} + tree.top_depth));
 }
 
 KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& options) {

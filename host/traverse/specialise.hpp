@@ -10,8 +10,10 @@ namespace boxwood {
 /// What is asked of each ray.
 enum class Query { closest, closest_with_statistics, any };
 
-/// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/walk.h), rounded up to a power of two
-/// so that few programs exist.
+/// At least `needed` entries of a traversal stack: a power of two, so that few programs exist. Throws CapacityError for 2 MiB a ray.
+std::uint32_t stack_entries(std::uint64_t needed);
+
+/// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/walk.h).
 std::uint32_t stack_size(const Tree& tree);
 
 /// The kernel for a query on a tree that is not empty.
