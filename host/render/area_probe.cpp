@@ -1,164 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/area_probe.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
+#include "render/line_areas.hpp"
 
 namespace boxwood {
 
 namespace {
 
 constexpr std::uint32_t side = 16;
-/// A group of fewer is left to the global tree.
-constexpr std::size_t least_rays = side;
-/// Rays between those of the probe lie beyond the outermost by up to half their distance, a 32nd, and some.
-constexpr double margin = 1.0 + 1.0 / side;
-/// Lines meet in a point when they pass it by no more than this share of the scene's size.
-constexpr double meeting = 0x1p-10;
-
-/// A ray up to its end: where it hits or its interval ends.
-struct Line {
-    Ray ray;
-    glm::dvec3 from, to, direction; ///< direction normalised
-};
-
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-    glm::dvec3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
-    double size() const { return glm::length(high - low); }
-};
-
-Box box_of(const Scene& scene) {
-    Box box;
-    for (const Instance& instance : scene.instances) {
-        for (const glm::vec3& p : scene.meshes[instance.mesh].positions) {
-            const glm::dvec3 placed(glm::dmat4(instance.transform) * glm::dvec4(p, 1.0));
-            box.low = glm::min(box.low, placed);
-            box.high = glm::max(box.high, placed);
-        }
-    }
-    return box;
-}
 
 glm::dvec3 vector(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-/// The lines of rays that hit something or have an end.
-std::vector<Line> lines_of(const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
-    std::vector<Line> lines;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const glm::dvec3 d = vector(rays[i].direction), from = vector(rays[i].origin);
-        const double end = std::min(rays[i].t_max, hits[i].t);
-        if (glm::length(d) > 0.0 && std::isfinite(end))
-            lines.push_back({rays[i], from, from + end * d, glm::normalize(d)});
-    }
-    return lines;
-}
-
-/// The point nearest to all lines by least squares, when they meet in it.
-std::optional<glm::dvec3> common_point(const std::vector<Line>& lines, double size) {
-    glm::dmat3 sum(0.0);
-    glm::dvec3 right(0.0);
-    const glm::dvec3 middle = lines[0].from;
-    for (const Line& line : lines) {
-        const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(line.direction, line.direction);
-        sum += across;
-        right += across * (line.from - middle);
-    }
-    // Parallel lines have no such point: the determinant is 0 but for their spread.
-    const double count = static_cast<double>(lines.size());
-    if (!(glm::determinant(sum) > 0x1p-20 * count * count * count)) return std::nullopt;
-    const glm::dvec3 point = middle + glm::inverse(sum) * right;
-    for (const Line& line : lines)
-        if (glm::length(glm::cross(point - line.from, line.direction)) > meeting * size) return std::nullopt;
-    return point;
-}
-
-/// Coordinates along right, up and forward of an area's record.
-glm::dvec3 in_frame(const InfluenceRecord& frame, const glm::dvec3& v) {
-    return {glm::dot(v, vector(frame.right)), glm::dot(v, vector(frame.up)), glm::dot(v, vector(frame.forward))};
-}
-
-/// The frustum from `eye` that holds the lines; none where they go all ways.
-std::optional<InfluenceArea> point_area(const std::vector<Line>& lines, const glm::dvec3& eye, const Box& box) {
-    InfluenceArea area;
-    area.kind = AreaKind::point;
-    area.origin = eye;
-    area.direction = glm::dvec3(0.0);
-    const auto far_end = [&](const Line& line) {
-        return glm::distance(line.from, eye) > glm::distance(line.to, eye) ? line.from : line.to;
-    };
-    for (const Line& line : lines)
-        if (glm::distance(far_end(line), eye) > 0.0) area.direction += glm::normalize(far_end(line) - eye);
-    if (!(glm::length(area.direction) > 0.5 * static_cast<double>(lines.size()))) return std::nullopt;
-    area.near = 0.5, area.far = 1.0;
-    const InfluenceRecord frame = influence_records(std::vector{area})[0];
-    area.half_width = area.half_height = 0x1p-10;
-    for (const Line& line : lines) {
-        const glm::dvec3 p = in_frame(frame, far_end(line) - eye);
-        if (!(p.z > 0x1p-3 * glm::length(p))) return std::nullopt; // beyond 80 degrees
-        area.half_width = std::max(area.half_width, margin * std::abs(p.x) / p.z);
-        area.half_height = std::max(area.half_height, margin * std::abs(p.y) / p.z);
-    }
-    area.far = 0.0;
-    for (int i = 0; i < 8; ++i) area.far = std::max(area.far, in_frame(frame, box.corner(i) - eye).z);
-    area.near = 0x1p-6 * area.far;
-    return area.far > 0.0 ? std::optional(area) : std::nullopt;
-}
-
-/// The box along the lines, from one end of the scene to the other.
-InfluenceArea plane_area(const std::vector<Line>& lines, const Box& box) {
-    InfluenceArea area;
-    area.direction = lines[0].direction;
-    const InfluenceRecord frame = influence_records(std::vector{area})[0];
-    Box lane, depth;
-    for (const Line& line : lines) {
-        for (const glm::dvec3& end : {line.from, line.to}) {
-            lane.low = glm::min(lane.low, in_frame(frame, end));
-            lane.high = glm::max(lane.high, in_frame(frame, end));
-        }
-    }
-    for (int i = 0; i < 8; ++i) {
-        depth.low = glm::min(depth.low, in_frame(frame, box.corner(i)));
-        depth.high = glm::max(depth.high, in_frame(frame, box.corner(i)));
-    }
-    const glm::dvec3 middle = 0.5 * (lane.low + lane.high), half = 0.5 * margin * (lane.high - lane.low);
-    const double spare = 0x1p-10 * box.size();
-    area.origin =
-        middle.x * vector(frame.right) + middle.y * vector(frame.up) + (depth.low.z - spare) * vector(frame.forward);
-    area.half_width = std::max(half.x, spare);
-    area.half_height = std::max(half.y, spare);
-    area.far = depth.high.z - depth.low.z + 2.0 * spare;
-    return area;
-}
-
-bool is_parallel(const Line& a, const Line& b) { // within half a degree, either way
-    return glm::length(glm::cross(a.direction, b.direction)) < 0.0087;
-}
-
-/// Lines through one point make one area; of the others each direction that many share.
-std::vector<std::pair<InfluenceArea, std::vector<Line>>> find_areas(std::vector<Line> lines, const Box& box) {
-    std::vector<std::pair<InfluenceArea, std::vector<Line>>> found;
-    if (lines.size() < least_rays) return found;
-    if (const auto eye = common_point(lines, box.size())) {
-        if (const auto area = point_area(lines, *eye, box)) found.emplace_back(*area, lines);
-        return found;
-    }
-    while (!lines.empty()) {
-        const Line first = lines[0];
-        const auto rest =
-            std::partition(lines.begin(), lines.end(), [&](const Line& l) { return is_parallel(l, first); });
-        std::vector<Line> group(lines.begin(), rest);
-        lines.erase(lines.begin(), rest);
-        if (group.size() >= least_rays) found.emplace_back(plane_area(group, box), std::move(group));
-    }
-    return found;
-}
 
 struct Cost {
     double tests = 0.0;
@@ -204,6 +59,7 @@ struct Control {
         const bool lookup = with.areas.size() > 0;
         ProbedArea result{area, rays, lines.size(), cost_of(device, tree, lines).tests, cost.tests, false};
         result.local_cost += lookup ? 1.0 : 0.0;
+        // Where every ray goes on to the global tree, fewer tests still take more time: two searches and the lookup.
         result.kept = (cost.answered > 0 || !lookup) && result.local_cost < result.global_cost;
         return result;
     }
@@ -225,8 +81,16 @@ std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceAr
     }
     const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
     closest_hit(device, tree, upload(device, rays, "probe rays"), hits);
+    const std::vector<Hit> found = download(device, hits);
+    std::vector<Ray> hitting;
+    std::vector<Hit> hit;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (found[i].primitive == BOXWOOD_NONE) continue;
+        hitting.push_back(rays[i]);
+        hit.push_back(found[i]);
+    }
     std::vector<Line> lines;
-    for (Line& line : lines_of(rays, download(device, hits))) {
+    for (const Line& line : lines_of(hitting, hit)) {
         const glm::vec3 from(line.to), d(line.from - line.to);
         // Past the surface that was hit.
         const Ray back{{from.x, from.y, from.z}, 0x1p-10f, {d.x, d.y, d.z}, 1.0f};
@@ -239,6 +103,7 @@ std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceAr
 
 std::vector<ProbedArea> judge_areas(Device& device, const Scene& scene, const std::vector<InfluenceArea>& areas,
                                     const BuildOptions& options) {
+    validate(areas, "influence areas");
     std::vector<ProbedArea> judged;
     if (scene.instanced_triangle_count() == 0 || areas.empty()) return judged;
     Control control(device, scene, options);
@@ -260,7 +125,7 @@ std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Ca
     Control control(device, scene, options);
     const Tree& tree = control.tree;
     const Geometry geometry = upload(device, scene);
-    const Box box = box_of(scene);
+    const DoubleBox box = *world_box(scene);
     const auto make = [&](const char* label) { return make_buffer<Ray>(device, side * side, label); };
     const Buffer<Ray> primary = make("probe rays"), shadow = make("probe rays"), diffuse = make("probe rays");
     const Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "probe hits");
@@ -274,9 +139,8 @@ std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Ca
         closest_hit(device, tree, *rays, hits);
         const std::vector<Line> lines = lines_of(download(device, *rays), download(device, hits));
         all += lines.size();
-        for (const auto& [area, own] : find_areas(lines, box)) {
-            probed.push_back(control.judge(area, own, name));
-        }
+        for (const LineArea& found : areas_of_lines(lines, box))
+            probed.push_back(control.judge(found.area, found.lines, name));
     }
     for (ProbedArea& each : probed) each.area.share = static_cast<double>(each.count) / static_cast<double>(all);
     return probed;
