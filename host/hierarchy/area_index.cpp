@@ -26,6 +26,9 @@ constexpr std::uint32_t octree_levels = 5;
 /// Above, going down a tree is cheaper than trying all boxes.
 constexpr std::size_t most_in_list = 8;
 
+/// Entries of lists beyond which nothing is split: areas that are all over each other would be listed in every cell.
+constexpr std::size_t entries_per_area = 64, entries_of_few = 1 << 15;
+
 } // namespace
 
 std::string_view name(AreaIndexKind kind) { return word_of(kinds, kind); }
@@ -85,13 +88,16 @@ void AreaCells::make_leaf(const AreaCell& cell, std::uint32_t node, AreaIndex& i
 AreaIndex AreaCells::build(AreaIndexKind kind) const {
     AreaIndex index{kind, std::vector<AreaNode>(1), {}};
     std::vector<AreaCell> cells{root_}; // by node
+    const std::size_t most_entries = entries_of_few + entries_per_area * areas_.size();
+    std::size_t entries = areas_.size();
     for (std::uint32_t node = 0; node < cells.size(); ++node) {
         const AreaCell cell = std::move(cells[node]);
         std::vector<Aabb> parts;
         AreaNode inner{};
-        if (kind == AreaIndexKind::octree && cell.level + 1 < octree_levels && !is_homogeneous(cell))
+        const bool may_split = entries < most_entries;
+        if (may_split && kind == AreaIndexKind::octree && cell.level + 1 < octree_levels && !is_homogeneous(cell))
             parts = octants(cell, inner);
-        if (kind == AreaIndexKind::kd) parts = halves(cell, inner);
+        if (may_split && kind == AreaIndexKind::kd) parts = halves(cell, inner);
         if (parts.empty()) {
             make_leaf(cell, node, index);
             continue;
@@ -99,7 +105,11 @@ AreaIndex AreaCells::build(AreaIndexKind kind) const {
         inner.first = static_cast<std::uint32_t>(cells.size());
         inner.count = BOXWOOD_NONE;
         index.nodes[node] = inner;
-        for (const Aabb& part : parts) cells.push_back(child(cell, part));
+        entries -= cell.areas.size();
+        for (const Aabb& part : parts) {
+            cells.push_back(child(cell, part));
+            entries += cells.back().areas.size();
+        }
         index.nodes.resize(cells.size());
     }
     return index;

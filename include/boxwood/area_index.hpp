@@ -33,7 +33,7 @@ struct AreaIndex {
 /// more: that is less than 2^-19 (1 + t) of the extents, t being the tangents.
 float area_rounding(const LocalArea& area);
 
-/// automatic: the list for up to eight areas, else the k-d tree. Empty for no areas. O(areas log areas) a node, of at most 2^16.
+/// automatic: the list for up to eight areas, else the k-d tree. Empty for no areas. O(areas) in memory, O(areas log areas).
 AreaIndex build_area_index(std::span<const LocalArea> areas, AreaIndexKind kind);
 
 /// The areas whose region holds the point, ascending; the same for every kind of index.
