@@ -117,6 +117,9 @@ std::vector<Ray> random_rays(std::size_t count) {
         }
         rays.push_back(ray);
     }
+    // Leaves after a time of few digits, in units of a direction that makes it an ordinary number.
+    rays.push_back(
+        {make_area(false, {0, 0, 0}, {0, 0, 1}, 1, 1, 0, 1), {0, 0, 0x1p-140f}, {0x1p-23f, 0, -0.55f * 0x1p-23f}});
     return rays;
 }
 
@@ -153,7 +156,7 @@ TEST_CASE("a ray is in the region of an area up to its exit, and not much shorte
             const double less = room[k] - 60 * e * (size + extent) * (1 + tangent);
             if (faster > 0) allowed = std::min(allowed, std::max(less, 0.0) / faster * (1 - 60 * e));
         }
-        CHECK(exit >= allowed - 0x1p-125);
+        CHECK(exit >= allowed - 0x1p-125 / std::min(speed, 1.0)); // below it is 0
         close += exit > 0.999 * leaves;
     }
     if (!small_sizes()) {
