@@ -120,7 +120,8 @@ TEST_CASE("the triangles of an area are those that reach into its region, and no
     std::size_t in = 0, out = 0, between = 0;
     for (int a = 0; a < (small_sizes() ? 4 : 100); ++a) {
         const double scale = std::exp2(a % 4 == 0 ? double(random.below(110)) - 55 : 0);
-        const InfluenceRecord area = random_area(random, a % 2 == 1, scale);
+        InfluenceRecord area = random_area(random, a % 2 == 1, scale);
+        if (a % 4 == 3) area.near = 0; // from the eye on, as local trees have it
         const std::vector<Triangle3> triangles = random_triangles(random, area, scale, small_sizes() ? 20 : 500);
         const std::vector<std::uint32_t> found = listed(triangles, area);
         CHECK(std::is_sorted(found.begin(), found.end()));

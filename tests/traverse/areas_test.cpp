@@ -219,6 +219,26 @@ TEST_CASE("areas: equal brute force on the smallest and the largest scenes") {
     }
 }
 
+TEST_CASE("areas: equal brute force where fields of view and tolerances are at their ends") {
+    Random random(56);
+    const Scene scene = single(random_mesh(random, small_sizes() ? 9 : 300, 0.3f));
+    const Bounds3 bounds = bounds_of(scene);
+    std::vector<InfluenceArea> areas = sample_areas(bounds);
+    for (const double tangent : {0x1p-30, 0x1p-12, 0x1p12, 0x1p30}) {
+        areas.push_back(areas[3]);
+        areas.back().half_width = tangent;
+    }
+    areas.push_back(areas[0]);
+    areas.back().half_width = areas.back().half_height = 0x1p-60;
+    for (const double degrees : {0.0, 90.0}) {
+        CAPTURE(degrees);
+        for (InfluenceArea& area : areas) area.tolerance_degrees = degrees;
+        const std::vector<Ray> rays = area_rays(random, areas, bounds, ray_count(2000));
+        const Searches found = check_areas(scene, areas, rays, BruteForce(scene, Levels::one).closest_hits(rays));
+        if (!small_sizes()) CHECK(found.local > rays.size() / 40);
+    }
+}
+
 TEST_CASE("areas: equal the tree without areas on every procedural kind") {
     Random random(51);
     for (const ProceduralKind& kind : procedural_kinds()) {
