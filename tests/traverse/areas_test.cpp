@@ -13,7 +13,7 @@
 #include "boxwood/procedural.hpp"
 #include "boxwood/update.hpp"
 #include "oracles/brute_force.hpp"
-#include "traverse/scenes.hpp"
+#include "traverse/area_checks.hpp"
 
 using namespace boxwood;
 using namespace boxwood::test;
@@ -23,11 +23,6 @@ TEST_SUITE_BEGIN("traverse");
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-Ray ray_of(const glm::dvec3& origin, const glm::dvec3& direction, float t_max = infinity) {
-    const glm::vec3 o(origin), d(direction);
-    return {{o.x, o.y, o.z}, 0.0f, {d.x, d.y, d.z}, t_max};
-}
 
 struct Bounds3 {
     glm::dvec3 low, high;
@@ -130,50 +125,6 @@ std::vector<Ray> area_rays(Random& random, const std::vector<InfluenceArea>& are
     return rays;
 }
 
-TreeImage built(const Scene& scene, Layout layout, const std::vector<InfluenceArea>& areas,
-                AreaIndexKind index = AreaIndexKind::automatic, BuildReport* report = nullptr) {
-    BuildOptions options;
-    options.levels = Levels::one;
-    options.layout = layout;
-    options.areas = areas;
-    options.area_index = index;
-    return download(test_device(), build(test_device(), scene, options, report));
-}
-
-struct Searches {
-    std::size_t local = 0;     ///< Rays that a local tree answered.
-    std::size_t continued = 0; ///< Rays that went on to the global one.
-};
-
-/// Both layouts and every index; `expected` by brute force or from the tree without areas.
-Searches check_areas(const Scene& scene, const std::vector<InfluenceArea>& areas, const std::vector<Ray>& rays,
-                     const std::vector<Hit>& expected) {
-    Searches searches;
-    for (const Layout layout : {Layout::binary, Layout::wide8}) {
-        for (const AreaIndexKind index : {AreaIndexKind::list, AreaIndexKind::octree, AreaIndexKind::kd}) {
-            CAPTURE(std::string(name(layout)));
-            CAPTURE(std::string(name(index)));
-            const TreeImage tree = built(scene, layout, areas, index);
-            CHECK_NOTHROW(validate(tree, scene, "tree"));
-            std::vector<RayStatistics> statistics;
-            CHECK(count_different(trace(tree, rays), expected) == 0);
-            CHECK(count_different(trace(tree, rays, statistics), expected) == 0);
-            const std::vector<std::uint32_t> any = trace_any(tree, rays);
-            std::size_t disagreeing = 0;
-            searches = {};
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                disagreeing += any[i] != (expected[i].primitive == BOXWOOD_NONE ? 0u : 1u);
-                searches.local += statistics[i].areas == 2;
-                searches.continued += statistics[i].areas == 1;
-            }
-            CHECK(disagreeing == 0);
-        }
-    }
-    return searches;
-}
-
-std::uint32_t ray_count(std::uint32_t count) { return small_sizes() ? 60 : count; }
-
 } // namespace
 
 TEST_CASE("areas: equal brute force on random triangles and instances") {
@@ -249,91 +200,6 @@ TEST_CASE("areas: equal the tree without areas on every procedural kind") {
         const std::vector<Ray> rays = area_rays(random, areas, bounds, ray_count(5000));
         check_areas(scene, areas, rays, trace(built(scene, Layout::wide8, {}), rays));
     }
-}
-
-TEST_CASE("areas: a hit in the local tree beyond the region is not the closest") {
-    // The region ends at z = 1. A slanted triangle begins in it and is met at z = 5; another, outside, at z = 2.
-    Mesh mesh;
-    mesh.positions = {{-4, -4, 0.5f}, {8, -4, 9.5f}, {-4, 8, 9.5f}, {-1, -1, 2}, {3, -1, 2}, {-1, 3, 2}};
-    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-    const Scene scene = single(mesh);
-    InfluenceArea area;
-    area.origin = {-2, -2, 0};
-    area.direction = {0, 0, 1};
-    area.half_width = area.half_height = 2.5;
-    area.far = 1.0;
-    area.tolerance_degrees = 90.0;
-    BuildReport report;
-    built(scene, Layout::wide8, {area}, AreaIndexKind::list, &report);
-    REQUIRE(report.areas.size() == 1);
-    REQUIRE(report.areas[0].triangles == 1);
-    const std::vector<Ray> rays{ray_of({0, 0, 0.25}, {0, 0, 1}), ray_of({0.25, 0.125, 0}, {0, 0, 0.5}),
-                                ray_of({-3.875, -3.875, 0.25}, {0, 0, 1})};
-    const std::vector<Hit> expected = BruteForce(scene, Levels::one).closest_hits(rays);
-    CHECK(expected[0].primitive == 1);
-    CHECK(expected[1].primitive == 1);
-    CHECK(expected[2].primitive == 0);
-    const Searches found = check_areas(scene, {area}, rays, expected);
-    CHECK(found.local == 1);
-    CHECK(found.continued == 2);
-}
-
-TEST_CASE("areas: a hit beyond the region that rounds to before the exit is not lost") {
-    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates. It begins at
-    // z = 1.005, farther from the region, which ends at 1, than local trees reach. A small one inside makes the tree.
-    Random random(54);
-    std::size_t before = 0;
-    for (int i = 0; i < (small_sizes() ? 2 : 20); ++i) {
-        const double angle = random.uniform(0.0f, 6.28f), lean = 0x1p-19;
-        const glm::dvec3 along(-std::sin(angle), std::cos(angle), 0.0),
-            up(lean * std::cos(angle), lean * std::sin(angle), 1.0);
-        const glm::dvec3 base(random.uniform(-0.5f, 0.5f), random.uniform(-0.5f, 0.5f), 1.005);
-        Mesh mesh;
-        for (const glm::dvec3& p : {base - 4.0 * along, base + 5.0 * along, base + along + 9.0 * up})
-            mesh.positions.emplace_back(p);
-        mesh.positions.insert(mesh.positions.end(), {{0.9f, 0.9f, 0.5f}, {0.95f, 0.9f, 0.5f}, {0.9f, 0.95f, 0.5f}});
-        mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-        const Scene scene = single(mesh);
-        InfluenceArea area;
-        area.direction = {0, 0, 1};
-        area.far = 1.0;
-        std::vector<Ray> rays;
-        for (std::uint32_t k = 0; k < ray_count(400); ++k) {
-            glm::dvec3 hit =
-                base + double(random.uniform(-0.4f, 0.4f)) * along + double(random.uniform(0.0f, 0.1f)) * up;
-            hit.z = random.uniform(0.1f, 0.4f);
-            rays.push_back(ray_of(hit, {0, 0, 1}));
-        }
-        const std::vector<Hit> expected = BruteForce(scene, Levels::one).closest_hits(rays);
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            before += expected[k].primitive == 0 && expected[k].t + rays[k].origin[2] < 0.999f;
-        BuildReport report;
-        built(scene, Layout::wide8, {area}, AreaIndexKind::list, &report);
-        REQUIRE(report.areas[0].triangles == 1);
-        check_areas(scene, {area}, rays, expected);
-    }
-    if (!small_sizes()) CHECK(before > 100);
-}
-
-TEST_CASE("areas: distances tied on the face where rays leave the region, the lowest primitive wins") {
-    // Triangles in the plane z = 1, where the region ends, three times; rays reach it at t = 1 exactly.
-    Mesh mesh;
-    for (int copy = 0; copy < 3; ++copy) {
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), {{-1, -1, 1}, {3, -1, 1}, {-1, 3, 1}});
-        mesh.triangles.emplace_back(first, first + 1, first + 2);
-    }
-    const Scene scene = single(mesh);
-    InfluenceArea area;
-    area.direction = {0, 0, 1};
-    area.half_width = area.half_height = 0.5;
-    area.far = 1.0;
-    std::vector<Ray> rays;
-    for (int i = -4; i <= 4; ++i)
-        for (int j = -4; j <= 4; ++j) rays.push_back(ray_of({i / 8.0, j / 8.0, 0}, {0, 0, 1}));
-    const std::vector<Hit> expected = BruteForce(scene, Levels::one).closest_hits(rays);
-    CHECK(expected[40].primitive == 0);
-    check_areas(scene, {area}, rays, expected);
 }
 
 TEST_CASE("areas: one without triangles is reported and leaves the tree as it is") {
