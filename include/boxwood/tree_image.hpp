@@ -67,7 +67,7 @@ struct TreeImage {
 /// levels and within flatten(scene) for one, and each local tree holds as many of those once; areas and their index are as
 /// shared/area.h says; instance records agree with scene.instances. Nodes that no root reaches are
 /// not read, and a mesh without an instance may be what bottom_depth counts. Does not compare boxes or triangles with the
-/// scene's positions. O(nodes + triangles + instances) time, a bit each of memory.
+/// scene's positions. O(nodes + triangles + instances) time, a bit each of memory, and a word for each triangle of a local tree.
 void validate(const TreeImage& tree, const Scene& scene, const std::string& file);
 
 } // namespace boxwood
