@@ -93,10 +93,9 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     const std::uint64_t result = layout == Layout::binary ? binary_nodes + records : blocks;
     const std::uint64_t top_level =
         (topology_bytes + sizeof(Aabb)) * instances + std::max(top_splits.all, 2 * sizeof(Aabb) * instances);
-    const std::uint64_t least =
-        positions + indices + topology + placed +
-        std::max({sizeof(Aabb) * triangles + splits.all, volumes + boxes + sorted + moments,
-                  volumes + boxes + result + top_level});
+    const std::uint64_t least = positions + indices + topology + placed +
+                                std::max({sizeof(Aabb) * triangles + splits.all, volumes + boxes + sorted + moments,
+                                          volumes + boxes + result + top_level});
     const std::uint64_t available =
         device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
     if (least > available)
