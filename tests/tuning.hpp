@@ -21,8 +21,8 @@ private:
     Tuning previous_;
 };
 
-/// The device's own tuning, groups that divide nothing, groups like a GPU's with slices as short as they get, and one slice so
-/// long that the work-items behind it in its group would begin beyond 2^32 (the first two under a checker).
+/// The device's own tuning, groups that divide nothing, groups like a GPU's with slices as short as they get, and one slice for
+/// everything, where work-items behind it in its group must not begin again beyond 2^32 (the first two under a checker).
 inline std::vector<Tuning> tunings() {
     if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
     return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1, 8}, {4, 16, 1u << 31, 16}};

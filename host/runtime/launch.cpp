@@ -29,7 +29,8 @@ cl::Kernel& find(Device& device, const KernelRef& kernel) {
 Slices cut(const Device& device, std::size_t count, std::size_t multiple) {
     if (count == 0) return {};
     const Tuning& tuning = device.tuning();
-    std::size_t length = std::max<std::size_t>((count - 1) / tuning.work_items + 1, tuning.smallest_slice);
+    std::size_t length =
+        std::min(std::max<std::size_t>((count - 1) / tuning.work_items + 1, tuning.smallest_slice), count);
     length = ((length - 1) / multiple + 1) * multiple;
     return {static_cast<std::uint32_t>((count - 1) / length + 1), static_cast<std::uint32_t>(length)};
 }

@@ -31,7 +31,8 @@ struct Slices {
     std::uint32_t length = 0;
 };
 
-/// Cuts `count` elements by the device's tuning, each slice a multiple of `multiple` elements. {0, 0} for none.
+/// Cuts `count` elements by the device's tuning, each slice a multiple of `multiple` elements and none longer than all of them,
+/// so that the work-items that fill up the last group begin behind the end and not, beyond 2^32, at the front. {0, 0} for none.
 Slices cut(const Device& device, std::size_t count, std::size_t multiple = 1);
 
 namespace detail {

@@ -62,7 +62,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         OFFSET(InfluenceRecord, half_height), OFFSET(InfluenceRecord, forward), OFFSET(InfluenceRecord, near),
         OFFSET(InfluenceRecord, far), OFFSET(InfluenceRecord, sin_tolerance), OFFSET(InfluenceRecord, share),
         OFFSET(InfluenceRecord, reserved), sizeof(LocalArea), OFFSET(LocalArea, region), OFFSET(LocalArea, box),
-        OFFSET(LocalArea, root), OFFSET(LocalArea, reserved), sizeof(AreaNode), OFFSET(AreaNode, split),
+        OFFSET(LocalArea, root), OFFSET(LocalArea, near), sizeof(AreaNode), OFFSET(AreaNode, split),
         OFFSET(AreaNode, axis), OFFSET(AreaNode, first), OFFSET(AreaNode, count), sizeof(RayVisits),
         OFFSET(RayVisits, nodes), OFFSET(RayVisits, primitives), OFFSET(RayVisits, nodes_to_hit),
         OFFSET(RayVisits, primitives_to_hit), sizeof(Thresholds), OFFSET(Thresholds, max_leaf_cost),

@@ -69,7 +69,7 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(InfluenceRecord, half_height), offsetof(InfluenceRecord, forward), offsetof(InfluenceRecord, near),
         offsetof(InfluenceRecord, far), offsetof(InfluenceRecord, sin_tolerance), offsetof(InfluenceRecord, share),
         offsetof(InfluenceRecord, reserved), sizeof(LocalArea), offsetof(LocalArea, region), offsetof(LocalArea, box),
-        offsetof(LocalArea, root), offsetof(LocalArea, reserved), sizeof(AreaNode), offsetof(AreaNode, split),
+        offsetof(LocalArea, root), offsetof(LocalArea, near), sizeof(AreaNode), offsetof(AreaNode, split),
         offsetof(AreaNode, axis), offsetof(AreaNode, first), offsetof(AreaNode, count), sizeof(RayVisits),
         offsetof(RayVisits, nodes), offsetof(RayVisits, primitives), offsetof(RayVisits, nodes_to_hit),
         offsetof(RayVisits, primitives_to_hit), sizeof(Thresholds), offsetof(Thresholds, max_leaf_cost),
