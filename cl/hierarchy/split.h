@@ -4,6 +4,7 @@
 //
 // BINS                             most slices along an axis
 // BIN_BOX                          1: slices of the node's box; 0: of the box of its primitives' centres, fewer for small nodes
+// SLICE_PRIMITIVES                 a small node of n primitives has 4 + n / SLICE_PRIMITIVES slices
 // COST, AXES, STOP, FALLBACK_MEASURE, FALLBACK_AXES   functions of the strategy
 // Others: hierarchy/strategies.h.
 #ifndef BOXWOOD_HIERARCHY_SPLIT_H
@@ -11,8 +12,8 @@
 #include "hierarchy/strategies.h"
 #include "runtime/inline.h"
 
-#if !defined(BINS) || !defined(BIN_BOX)
-#error "define BINS and BIN_BOX"
+#if !defined(BINS) || !defined(BIN_BOX) || !defined(SLICE_PRIMITIVES)
+#error "define BINS, BIN_BOX and SLICE_PRIMITIVES"
 #endif
 #if !defined(COST) || !defined(AXES) || !defined(STOP)
 #error "define COST, AXES and STOP"
@@ -47,14 +48,13 @@ INLINE uint slices_of(uint count) {
 #if BIN_BOX
     return BINS;
 #else
-    return min((uint)BINS, 4 + count / 16);
+    return min((uint)BINS, 4 + count / SLICE_PRIMITIVES);
 #endif
 }
 
 /// Where the slices are. Products round alike at every power-of-two scale; an axis without extent has but one slice.
 typedef struct Grid {
-    float4 low, zoom, scale;
-    int4 last;
+    float4 low, zoom, scale, last;
 } Grid;
 
 INLINE void make_grid(Grid* grid, float8 bounds, float8 centres, uint count) {
@@ -64,13 +64,13 @@ INLINE void make_grid(Grid* grid, float8 bounds, float8 centres, uint count) {
     grid->low = (float4)(range.s012, 0.0f);
     grid->zoom = select((float4)(1.0f), (float4)(0x1p90f), extent < (float4)(0x1p-90f));
     grid->scale = select((float4)(0.0f), (float)slices / (extent * grid->zoom), extent > (float4)(0.0f));
-    grid->last = (int4)((int)slices - 1);
+    grid->last = (float4)((float)(slices - 1));
 }
 
-/// The slice along each axis.
+/// The slice along each axis. Clamped before it is an integer: those of centres far outside would be none.
 INLINE int4 place_in(const Grid* grid, float4 centre) {
-    const int4 place = convert_int4((centre - grid->low) * grid->zoom * grid->scale);
-    return max(min(place, grid->last), (int4)(0));
+    const float4 place = (centre - grid->low) * grid->zoom * grid->scale;
+    return convert_int4(LESSER(GREATER(place, (float4)(0.0f)), grid->last));
 }
 
 /// Lane by lane: slices at or above which primitives go right when the plane is at `slice` of `axis`.

@@ -6,8 +6,8 @@
 // CHUNK  positions of a chunk
 // LARGE  primitives above which a node is split here and not in topdown_subtrees.cl
 // Others: hierarchy/split.h, hierarchy/topdown.h.
-// compile: CHUNK=64 LARGE=64 BINS=32 BIN_BOX=0 BLOCK=4 OWN_CENTRES=0 MEASURE=surface_measure COST=measured_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes
-// compile: CHUNK=64 LARGE=64 BINS=16 BIN_BOX=1 BLOCK=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
+// compile: CHUNK=64 LARGE=64 BINS=32 BIN_BOX=0 SLICE_PRIMITIVES=16u BLOCK=4 OWN_CENTRES=0 MEASURE=surface_measure COST=measured_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes
+// compile: CHUNK=64 LARGE=64 BINS=16 BIN_BOX=1 SLICE_PRIMITIVES=1u BLOCK=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
 #include "hierarchy/topdown.h"
 #include "primitives/segments.h"
 

@@ -19,6 +19,7 @@ TopDownOptions paper_options(const char* measure, const char* axes) {
     options.measure = measure;
     options.axes = axes;
     options.bins = 40;
+    options.slice_primitives = 1;
     options.bin_box = true;
     options.max_leaf_primitives = 1;
     options.max_levels = 100;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "boxwood/error.hpp"
+#include "hierarchy/forest.hpp"
 #include "hierarchy/obb_kinds.hpp"
 #include "hierarchy/topdown.hpp"
 #include "shared/aabb.h"
@@ -33,7 +34,8 @@ std::uint64_t moment_bytes(Bounds bounds, std::uint64_t triangles) {
 
 /// While a level over `primitives` is built from the top down.
 TopDownBytes split_bytes(const Device& device, Builder builder, std::uint64_t primitives) {
-    return builder == Builder::lbvh || primitives == 0 ? TopDownBytes{} : topdown_bytes(device, primitives);
+    if (builder == Builder::lbvh || primitives == 0) return {};
+    return topdown_bytes(device, primitives, topdown_options(builder, 1).bins);
 }
 
 struct Need {

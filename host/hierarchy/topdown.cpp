@@ -38,6 +38,7 @@ Thresholds thresholds_of(const TopDownOptions& options) {
 Defines defines_of(const TopDownOptions& options, bool own_centres) {
     return {{"BINS", std::to_string(options.bins)},
             {"BIN_BOX", options.bin_box ? "1" : "0"},
+            {"SLICE_PRIMITIVES", std::to_string(options.slice_primitives) + "u"},
             {"BLOCK", std::to_string(options.block)},
             {"OWN_CENTRES", own_centres ? "1" : "0"},
             {"MEASURE", options.measure},
@@ -217,6 +218,8 @@ void Growth::tally(TopDownTree& tree) {
 void check(const TopDownOptions& options) {
     const auto not_negative = [](float value) { return value >= 0.0f; };
     require(options.bins >= 2 && options.bins <= 64, "bins", "are not from 2 to 64");
+    require(options.slice_primitives >= 1 && options.slice_primitives <= 1000, "slice_primitives",
+            "is not from 1 to 1000");
     require(options.block == 1 || options.block == 4, "block", "is neither 1 nor 4");
     require(options.max_levels >= 1 && options.max_levels <= 1000, "max_levels", "is not from 1 to 1000");
     require(not_negative(options.max_leaf_cost), "max_leaf_cost", "is negative");
@@ -235,9 +238,8 @@ void check(const TopDownOptions& options) {
         require(is_name(*text), option, "is not the name of a function");
 }
 
-TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives) {
+TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives, std::uint32_t bins) {
     const LevelSize most = largest_level(primitives, large_above(device, primitives));
-    const std::uint64_t bins = TopDownOptions{}.bins;
     const std::uint64_t records = sizeof(cl_float8) * primitives;
     const std::uint64_t bins_of_chunks = sizeof(cl_float8) * 3 * bins * most.chunks;
     const std::uint64_t slots = (sizeof(cl_float8) + 4) * 3 * bins * (most.chunks + most.nodes);

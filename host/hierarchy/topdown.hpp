@@ -14,11 +14,11 @@ TopDownTree topdown_within(Device& device, BufferView<const Aabb> boxes, BufferV
                            BufferView<const InfluenceRecord> areas, BufferView<const std::uint32_t> area_starts,
                            const TopDownOptions& options, bool leaves);
 
-/// Bytes that a build over `primitives` with the default bins needs at once, beside boxes and topology, and its largest buffer.
+/// Bytes that a build over `primitives` with `bins` slices needs at once, beside boxes and topology, and its largest buffer.
 struct TopDownBytes {
     std::uint64_t all;
     std::uint64_t largest;
 };
-TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives);
+TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives, std::uint32_t bins);
 
 } // namespace boxwood

@@ -28,6 +28,7 @@ struct TopDownOptions {
 
     std::uint32_t bins = 32; ///< Slices of the extent along an axis: 2 to 64.
     bool bin_box = false;    ///< Slice the node's box (the paper's way), else the box of its primitives' centres.
+    std::uint32_t slice_primitives = 16; ///< Without bin_box n primitives have at most 4 + n / this slices: 1 to 1000.
     std::uint32_t block = 1; ///< Primitives that a leaf tests at once, 1 or 4: nodes of no more are not split by cost.
 
     // The paper's 8.1.1 and table 1.

@@ -118,7 +118,8 @@ std::vector<Candidate> candidates_of(const std::vector<Aabb>& below, const Case&
     std::vector<Candidate> candidates;
     Aabb box = empty;
     for (const Aabb& each : below) box = hull(box, each);
-    const int slices = static_cast<int>(std::min<std::size_t>(which.options.bins, 4 + below.size() / 16));
+    const int slices =
+        static_cast<int>(std::min<std::size_t>(which.options.bins, 4 + below.size() / which.options.slice_primitives));
     for (int axis = 0; axis < 3; ++axis) {
         if (which.axis && which.axis(box) != axis) continue;
         float low = infinity, high = -infinity;

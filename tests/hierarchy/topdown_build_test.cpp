@@ -72,7 +72,7 @@ TEST_CASE("topdown builds: what the check of capacity counts on is what is taken
         const std::uint64_t before = device.held_bytes();
         const TopDownTree tree = topdown(device, uploaded, {}, std::move(offsets), {}, {}, {});
         const std::uint64_t taken = device.peak_bytes() - before, topology = 24 * count;
-        const std::uint64_t counted = topdown_bytes(device, count).all + topology;
+        const std::uint64_t counted = topdown_bytes(device, count, 32).all + topology;
         CHECK(counted >= 0.9 * static_cast<double>(taken));
         CHECK(counted <= 1.1 * static_cast<double>(taken));
     }
@@ -113,7 +113,7 @@ TEST_CASE("topdown builds: refused before the work when splitting nodes does not
         CHECK(most <= most_accepted(Builder::lbvh, instances));
         // Held meanwhile, by primitive: its box, the topology, and what it is, a triangle with a vertex or an instance.
         const std::uint64_t beside = sizeof(Aabb) + 24 + (instances ? sizeof(InstanceRecord) : 24);
-        const TopDownBytes splits = topdown_bytes(device, most);
+        const TopDownBytes splits = topdown_bytes(device, most, 32);
         CHECK(splits.all + beside * most <= available);
         CHECK(splits.largest <= device.info().largest_buffer_bytes);
     }

@@ -79,4 +79,20 @@ TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
     }
 }
 
+TEST_CASE("topdown: centres far outside the node's box go to the slices at its ends") {
+    Boxes forest = random_boxes({many() / 4}, Spread::cube, 37);
+    Random random(38);
+    for (std::size_t i = 0; i < 3 * forest.boxes.size(); ++i)
+        forest.centres.push_back(std::ldexp(random.uniform(-1.0f, 1.0f), 40)); // slices beyond what integers hold
+    TopDownOptions options = quality_options(1);
+    options.bin_box = true;
+    check(forest, options, quality_rules());
+}
+
+TEST_CASE("topdown: large nodes in slices so long that the next would begin beyond 2^32") {
+    if (small_sizes()) return;
+    const TuningScope scope({4, 16, 1u << 31, 16}); // nodes of more than 4096 primitives are large
+    check(random_boxes({9000}, Spread::cube, 41), quality_options(1), quality_rules());
+}
+
 TEST_SUITE_END();

@@ -111,6 +111,7 @@ TEST_CASE("topdown: the fewest slices, the most, and numbers between") {
         TopDownOptions options = quality_options(1);
         options.bins = bins;
         options.bin_box = bins % 2 == 0;
+        options.slice_primitives = bins == 33 ? 1 : 16;
         check(random_boxes({many() / 4}, Spread::sizes, bins), options, quality_rules());
     }
 }
@@ -188,6 +189,8 @@ TEST_CASE("topdown: options out of range are refused by name") {
     };
     refuse([](TopDownOptions& o) { o.bins = 1; });
     refuse([](TopDownOptions& o) { o.bins = 65; });
+    refuse([](TopDownOptions& o) { o.slice_primitives = 0; });
+    refuse([](TopDownOptions& o) { o.slice_primitives = 1001; });
     refuse([](TopDownOptions& o) { o.block = 2; });
     refuse([](TopDownOptions& o) { o.max_levels = 0; });
     refuse([](TopDownOptions& o) { o.max_levels = 1001; });

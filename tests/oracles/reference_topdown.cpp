@@ -79,7 +79,7 @@ struct Recursion {
     }
 
     void try_axis(const List& list, int axis, bool fallback, std::optional<Cut>& best) const {
-        const std::uint32_t few = 4 + static_cast<std::uint32_t>(list.size()) / 16;
+        const std::uint32_t few = 4 + static_cast<std::uint32_t>(list.size()) / options.slice_primitives;
         const std::uint32_t count = options.bin_box ? options.bins : std::min(options.bins, few);
         const std::vector<std::uint32_t> place = slices(list, axis, count);
         if (place.empty()) return;
