@@ -18,8 +18,9 @@ namespace {
 /// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
 /// work-items there are, and for the caches of a CPU.
 std::uint32_t large_above(const Device& device, std::uint64_t primitives) {
-    // Several subtrees a work-item, so that the last ones do not leave the others idle.
-    return std::clamp(cut(device, std::max<std::uint64_t>(primitives, 1)).length / 4, 64u, 4096u);
+    // Every level has launches to wait for: fewer are better as long as there is a subtree for every other work-item.
+    const std::uint64_t length = cut(device, std::max<std::uint64_t>(primitives, 1)).length;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(2 * length, 64, 4096));
 }
 
 Thresholds thresholds_of(const TopDownOptions& options) {
