@@ -19,7 +19,6 @@ TopDownOptions paper_options(const char* measure, const char* axes) {
     options.measure = measure;
     options.axes = axes;
     options.bins = 40;
-    options.slice_primitives = 1;
     options.bin_box = true;
     options.max_leaf_primitives = 1;
     options.max_levels = 100;
@@ -42,6 +41,7 @@ StudyBuilder all_axes_builder(const char* name, const char* measure, const char*
     options.cost = cost;
     options.axes = "all_axes";
     options.bins = 40;
+    options.slice_primitives = 1;
     options.max_leaf_primitives = 2;
     return {name, options, false, costed_leaves, share};
 }
