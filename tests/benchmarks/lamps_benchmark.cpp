@@ -135,21 +135,22 @@ void measure(Device& device, const std::string& name, const Arguments& arguments
         for (std::size_t i = 0; i < found.size(); ++i) different += (found[i] != 0) != (expected[i] != 0);
     }
     const std::vector<double> ms = benchmarks::race(device, contenders, arguments.rounds);
-    std::printf("%-24s %8zu %5zu %5zu %8.3f %8.3f %8.3f %8.3f %6zu\n", std::filesystem::path(name).stem().c_str(),
+    std::printf("%-24s %8zu %5zu %5zu %8.3f %8.3f %8.3f %5zu %8.3f %6zu\n", std::filesystem::path(name).stem().c_str(),
                 rays.size(), lights.size(), local.size(), ms[1] / ms[0], ms[2] / ms[0],
-                answered(device, trees[2], rays), ms[3] / ms[0], different);
+                answered(device, trees[2], rays), known.size(), ms[3] / ms[0], different);
     std::fflush(stdout);
     milliseconds[name] = {{"sah", ms[0]}, {"lights", ms[1]}, {"all_lights", ms[2]}, {"blend", ms[3]}};
     ratios[name] = {{"lights", ms[1] / ms[0]}, {"all_lights", ms[2] / ms[0]}, {"blend", ms[3] / ms[0]},
-                    {"areas", lights.size()},  {"kept", local.size()},        {"different", different}};
+                    {"areas", lights.size()},  {"kept", local.size()},        {"known", known.size()},
+                    {"different", different}};
 }
 
 int run(const Arguments& arguments, const std::vector<std::string>& scenes) {
     Device device(arguments.device);
     nlohmann::json milliseconds = nlohmann::json::object(), ratios = nlohmann::json::object();
-    std::printf("%-24s %8s %5s %5s %8s %8s %8s %8s %6s\n", "scene", "rays", "areas", "kept", "kept/", "all/",
-                "answered", "blend/", "differ");
-    std::printf("%-24s %8s %5s %5s %8s %8s %8s %8s %6s\n", "", "", "", "", "sah", "sah", "locally", "sah", "");
+    std::printf("%-24s %8s %5s %5s %8s %8s %8s %5s %8s %6s\n", "scene", "rays", "areas", "kept", "kept/", "all/",
+                "answered", "known", "blend/", "differ");
+    std::printf("%-24s %8s %5s %5s %8s %8s %8s %5s %8s %6s\n", "", "", "", "", "sah", "sah", "locally", "", "sah", "");
     for (const std::string& scene : scenes) measure(device, scene, arguments, milliseconds, ratios);
     benchmarks::save_report(arguments, device.info(), milliseconds, ratios);
     return 0;
