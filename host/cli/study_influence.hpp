@@ -18,7 +18,7 @@ struct StudyBuilder {
     std::string name;
     TopDownOptions options;
     bool barycentres = false;   ///< Primitives go by barycentres, as in the paper, not by the centres of their boxes.
-    bool costed_leaves = false; ///< Leaves by cost, besides those of the options.
+    bool costed_leaves = false; ///< Leaves by cost, in place of those of the options.
     float share = 1.0f;         ///< Of all rays, those that follow the area, as the builder is told.
 };
 

@@ -40,7 +40,7 @@ std::vector<Reason> reasons(const Scene& scene, const BuildOptions& options) {
     if (needs.oriented_boxes)
         result.push_back({"oriented-boxes", "the options ask for " + std::string(name(options.bounds.kind))});
     if (needs.influence_areas)
-        result.push_back({"influence-areas", "the options bring " + std::to_string(options.areas.size())});
+        result.push_back({"influence-areas", "areas with trees of their own: " + std::to_string(options.areas.size())});
     const std::vector<Reason> shading = shading_reasons(scene);
     result.insert(result.end(), shading.begin(), shading.end());
     return result;

@@ -109,7 +109,8 @@ TEST_CASE("device: slices cover every element once, none is empty") {
                 CAPTURE(count);
                 const Slices slices = cut(device, count, multiple);
                 CHECK(slices.length % multiple == 0);
-                CHECK(slices.length >= tuning.smallest_slice);
+                CHECK(slices.length >= std::min<std::size_t>(tuning.smallest_slice, count));
+                CHECK(slices.length < count + multiple); // none longer than all
                 CHECK(slices.slices <= tuning.work_items);
                 CHECK(std::size_t(slices.slices) * slices.length >= count);
                 CHECK(std::size_t(slices.slices - 1) * slices.length < count);
