@@ -69,6 +69,20 @@ bool same(const InfluenceArea& a, const InfluenceArea& b) {
            a.half_height == b.half_height && a.near == b.near && a.far == b.far;
 }
 
+/// What the lines of a known area suggest, which is one area of its kind and extents, by all of the lines.
+LineArea suggested(const InfluenceArea& known, double depth, bool back, const DoubleBox& scene) {
+    const InfluenceRecord record = influence_records({&known, 1})[0];
+    const std::vector<LineArea> found = areas_of_lines(lines_of(rays_of(record, depth, back)), scene);
+    REQUIRE(found.size() == 1);
+    const InfluenceArea& area = found[0].area;
+    CHECK(area.kind == known.kind);
+    CHECK(found[0].lines.size() == 256);
+    // The outermost lines are 15/16 of the half extents from the middle; it reaches a 16th farther, that is 255/256.
+    CHECK(area.half_width == doctest::Approx(known.half_width * 255 / 256).epsilon(1e-3));
+    CHECK(area.half_height == doctest::Approx(known.half_height * 255 / 256).epsilon(1e-3));
+    return found[0];
+}
+
 std::vector<Ray> random_segments(Random& random, std::size_t count, double scale) {
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i)
@@ -89,20 +103,13 @@ TEST_CASE("lines in one direction suggest the plane area that they come from") {
         known.half_height = scale * random.uniform(0.2f, 1.5f);
         known.far = scale;
         const DoubleBox scene = cube(2 * scale);
-        const std::vector<LineArea> found =
-            areas_of_lines(lines_of(rays_of(influence_records({&known, 1})[0], scale, i % 2 == 1)), scene);
         INFO("case " << i);
-        REQUIRE(found.size() == 1);
-        const InfluenceArea& area = found[0].area;
-        CHECK(area.kind == AreaKind::plane);
-        CHECK(found[0].lines.size() == 256);
+        const LineArea found = suggested(known, scale, i % 2 == 1, scene);
+        const InfluenceArea& area = found.area;
         const double sine = glm::length(glm::cross(glm::normalize(area.direction), glm::normalize(known.direction)));
         CHECK(sine < turn * 4);
-        // The outermost lines are 15/16 of the half extents from the middle; it reaches a 16th farther, that is 255/256.
-        CHECK(area.half_width == doctest::Approx(known.half_width * 255 / 256).epsilon(1e-3));
-        CHECK(area.half_height == doctest::Approx(known.half_height * 255 / 256).epsilon(1e-3));
         const InfluenceRecord record = influence_records({&area, 1})[0];
-        for (const Line& line : found[0].lines) {
+        for (const Line& line : found.lines) {
             CHECK(contains(record, line.from));
             CHECK(contains(record, line.to));
         }
@@ -125,19 +132,13 @@ TEST_CASE("lines through one point suggest the point area that they come from") 
         known.near = 0.01 * scale;
         known.far = scale;
         const DoubleBox scene = cube(2 * scale);
-        const std::vector<LineArea> found =
-            areas_of_lines(lines_of(rays_of(influence_records({&known, 1})[0], scale, i % 2 == 1)), scene);
         INFO("case " << i);
-        REQUIRE(found.size() == 1);
-        const InfluenceArea& area = found[0].area;
-        CHECK(area.kind == AreaKind::point);
-        CHECK(found[0].lines.size() == 256);
+        const LineArea found = suggested(known, scale, i % 2 == 1, scene);
+        const InfluenceArea& area = found.area;
         CHECK(glm::length(area.origin - known.origin) < 1e-4 * scale);
         CHECK(glm::length(glm::cross(glm::normalize(area.direction), glm::normalize(known.direction))) < 1e-4);
-        CHECK(area.half_width == doctest::Approx(known.half_width * 255 / 256).epsilon(1e-3));
-        CHECK(area.half_height == doctest::Approx(known.half_height * 255 / 256).epsilon(1e-3));
         const InfluenceRecord record = influence_records({&area, 1})[0];
-        for (const Line& line : found[0].lines) {
+        for (const Line& line : found.lines) {
             const glm::dvec3 end = i % 2 == 1 ? line.from : line.to;
             CHECK((contains(record, end) || glm::dot(end - area.origin, vector(record.forward)) < area.near));
         }
