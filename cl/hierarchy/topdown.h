@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the top-down builder share: how nodes are written, and records put into bins.
+// What the kernels of the top-down builder share: how nodes are written, and records put into bins and parted.
 //
 // OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
 #ifndef BOXWOOD_HIERARCHY_TOPDOWN_H
@@ -65,6 +65,24 @@ INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* recor
         join_bins(bins, &turn, slices);
     }
     for (; i < end; ++i) add_to_bins(bins, place_in(grid, centre_of(records[i], own_centres)), records[i]);
+}
+
+/// Moves the records [begin, end) behind `next_left` or `next_right`, by the side of the plane at `limit` (see plane_at) that they
+/// are on, in order. *left and *right become the bounds of their centres.
+INLINE void part_records(const Grid* grid, int4 limit, global const float8* from, global const float* own_centres, uint begin,
+                         uint end, global float8* to, uint next_left, uint next_right, float8* left, float8* right) {
+    float8 left_centres = NO_BOUNDS, right_centres = NO_BOUNDS;
+    for (uint i = begin; i < end; ++i) {
+        const float8 record = from[i];
+        const float4 centre = centre_of(record, own_centres);
+        const uint side = any(place_in(grid, centre) >= limit) ? 1 : 0;
+        to[side == 0 ? next_left : next_right] = record;
+        next_left += 1 - side;
+        next_right += side;
+        add_to_side(&left_centres, &right_centres, point_bounds(centre), side);
+    }
+    *left = left_centres;
+    *right = right_centres;
 }
 
 #endif

@@ -238,17 +238,10 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     const int4 limit = plane_at(node->cut & 3, node->cut >> 2);
     const uint middle = node->first + node->left_count;
     const uint lefts = lefts_before(node, chunk_counts + i * (size_t)SLOTS, &chunk);
-    uint next_left = node->first + lefts, next_right = middle + (chunk.begin - node->first - lefts);
-    float8 left = NO_BOUNDS, right = NO_BOUNDS;
-    for (uint p = chunk.begin; p < chunk.end; ++p) {
-        const float8 record = records[p];
-        const float4 centre = centre_of(record, own_centres);
-        const uint side = any(place_in(&grid, centre) >= limit) ? 1 : 0;
-        scattered[side == 0 ? next_left : next_right] = record;
-        next_left += 1 - side;
-        next_right += side;
-        add_to_side(&left, &right, point_bounds(centre), side);
-    }
+    const uint rights = chunk.begin - node->first - lefts;
+    float8 left, right;
+    part_records(&grid, limit, records, own_centres, chunk.begin, chunk.end, scattered, node->first + lefts, middle + rights, &left,
+                 &right);
     chunk_bounds[2 * (size_t)i] = left;
     chunk_bounds[2 * (size_t)i + 1] = right;
 }

@@ -41,19 +41,8 @@ INLINE void part(const Work* w, const Node* node, const Grid* grid, const Bins* 
     global const float8* from = w->records[other ? 1 : 0];
     global float8* to = w->records[other ? 0 : 1];
     const int4 limit = plane_at(plane->axis, plane->slice);
-    uint next_left = node->first, next_right = node->first + plane->left_count;
-    float8 left = NO_BOUNDS, right = NO_BOUNDS;
-    for (uint i = node->first; i < node->first + node->count; ++i) {
-        const float8 record = from[i];
-        const float4 centre = centre_of(record, w->centres);
-        const uint side = any(place_in(grid, centre) >= limit) ? 1 : 0;
-        to[side == 0 ? next_left : next_right] = record;
-        next_left += 1 - side;
-        next_right += side;
-        add_to_side(&left, &right, point_bounds(centre), side);
-    }
-    children[0].centres = left;
-    children[1].centres = right;
+    part_records(grid, limit, from, w->centres, node->first, node->first + node->count, to, node->first,
+                 node->first + plane->left_count, &children[0].centres, &children[1].centres);
     side_bounds(bins, plane->axis, plane->slice, slices, &children[0].bounds, &children[1].bounds);
     children[0].flags ^= NODE_OTHER;
     children[1].flags ^= NODE_OTHER;
