@@ -2,10 +2,10 @@
 // Boxes of primitives: triangles, and instances of meshes.
 // compile:
 #include "runtime/numerics.h"
-#include "shared/aabb.h"
-#include "shared/instance.h"
+#include "bounds/placement.h"
+#include "bounds/triangle_box.h"
 
-/// boxes[i] = exact box of triangle i, for the triangles of one slice.
+/// boxes[i] = padded box of triangle i, for the triangles of one slice.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void triangle_bounds(global const float* positions, global const uint* triangles, global Aabb* boxes, uint count,
                      uint slice) {
@@ -13,32 +13,25 @@ void triangle_bounds(global const float* positions, global const uint* triangles
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
     for (uint i = begin; i < end; ++i) {
-        global const float* a = positions + 3 * (size_t)triangles[3 * (size_t)i];
-        global const float* b = positions + 3 * (size_t)triangles[3 * (size_t)i + 1];
-        global const float* c = positions + 3 * (size_t)triangles[3 * (size_t)i + 2];
-        Aabb box;
-        for (int k = 0; k < 3; ++k) {
-            const float low = a[k] < b[k] ? a[k] : b[k];
-            const float high = a[k] > b[k] ? a[k] : b[k];
-            box.min[k] = low < c[k] ? low : c[k];
-            box.max[k] = high > c[k] ? high : c[k];
-        }
-        boxes[i] = box;
+        global const uint* corner = triangles + 3 * (size_t)i;
+        padded_triangle_box(positions + 3 * (size_t)corner[0], positions + 3 * (size_t)corner[1],
+                            positions + 3 * (size_t)corner[2], boxes + i);
     }
 }
 
-/// boxes[i] = conservative world box of instance i: its mesh's box under to_world, padded outward.
+/// boxes[i] = conservative world box of instance i: its mesh's box under to_world, padded outward by the roundings of that and by
+/// placement_error(), in the scene's `sphere`.
 ///
-/// Each bound is a sum of three products and a translation. With u = 2^-24 and S the sum of the terms' magnitudes, its
-/// rounding error is at most 4 u S (Higham, gamma_4). Traversal moves the ray by to_object, whose entries are rounded
-/// once and applied with the same number of operations, which moves the hit by as much again for a well-conditioned
-/// matrix. So the pad is 8 u S, rounded up to 9 for the pad's own rounding.
+/// Each bound is a sum of three products and a translation. With u = 2^-24 and S the sum of the terms' magnitudes, its rounding error
+/// is at most 4u S (Higham, gamma_4); 6u with that of the last sum.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void instance_bounds(global const InstanceRecord* instances, global const Aabb* mesh_boxes, global Aabb* boxes,
-                     uint count) {
+                     uint count, SceneSphere sphere) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const Aabb local_box = mesh_boxes[instances[i].mesh];
+    float error[3];
+    placement_error(&instances[i], &sphere, error);
     Aabb box;
     for (int row = 0; row < 3; ++row) {
         const float shift = instances[i].to_world[4 * row + 3];
@@ -51,7 +44,7 @@ void instance_bounds(global const InstanceRecord* instances, global const Aabb* 
             high += a < b ? b : a;
             magnitude += fabs(a) > fabs(b) ? fabs(a) : fabs(b);
         }
-        const float pad = 9.0f * 0x1p-24f * magnitude;
+        const float pad = fma(6.0f * 0x1p-24f, magnitude, error[row]);
         box.min[row] = low - pad;
         box.max[row] = high + pad;
     }

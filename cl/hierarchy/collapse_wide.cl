@@ -9,6 +9,7 @@
 // compile: TRIANGLE_LEAVES=1 NAMED=1
 // compile: TRIANGLE_LEAVES=0 NAMED=0
 #include "runtime/numerics.h"
+#include "bounds/collinear.h"
 #include "primitives/segments.h"
 #include "hierarchy/forest.h"
 #include "hierarchy/shares.h"
@@ -195,8 +196,9 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
            c2 = zero, c3 = zero;
 #define LOAD_TRIANGLE(i)                                                                                              \
     a##i = corner(positions, triangles, p##i, 0);                                                                     \
-    b##i = corner(positions, triangles, p##i, 1) - a##i;                                                              \
-    c##i = corner(positions, triangles, p##i, 2) - a##i
+    b##i = corner(positions, triangles, p##i, 1);                                                                     \
+    c##i = corner(positions, triangles, p##i, 2);                                                                     \
+    mark_collinear(&a##i, &b##i, &c##i)
     LOAD_TRIANGLE(0);
     if (size > 1) {
         LOAD_TRIANGLE(1);
@@ -208,8 +210,8 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
         LOAD_TRIANGLE(3);
     }
     store_rows(a0, a1, a2, a3, block->v0_x, block->v0_y, block->v0_z);
-    store_rows(b0, b1, b2, b3, block->edge1_x, block->edge1_y, block->edge1_z);
-    store_rows(c0, c1, c2, c3, block->edge2_x, block->edge2_y, block->edge2_z);
+    store_rows(b0, b1, b2, b3, block->v1_x, block->v1_y, block->v1_z);
+    store_rows(c0, c1, c2, c3, block->v2_x, block->v2_y, block->v2_z);
     block->primitive[0] = name_of(p0, first_triangle, names);
     block->primitive[1] = name_of(p1, first_triangle, names);
     block->primitive[2] = name_of(p2, first_triangle, names);

@@ -9,6 +9,7 @@
 // MEASURE_AREA, FALLBACK  see bounds/oriented_box.h
 // compile: MOMENTS=1 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: MOMENTS=0 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
+#include "bounds/placement.h"
 #include "bounds/rotation.h"
 #include "hierarchy/obb_node.h"
 #include "shared/instance.h"
@@ -42,7 +43,8 @@ INLINE void load_vector_private(const float* source, Vector* v) {
 /// node's space: 16 roundoffs of the sum of all magnitudes. The box's edges are the columns of the inverse of its axes, not exactly
 /// their rows: along each axis, those of all three edges together are off by 56 roundoffs (8 and twice 24, see
 /// orthonormalise) of the longest. 72 of all magnitudes with the longest extent on each axis bound both.
-INLINE void place_box(global const InstanceRecord* record, global const Obb* box, Placed* placed) {
+/// What a ray in object space may be off comes on top, so that the nodes above are around every hit.
+INLINE void place_box(global const InstanceRecord* record, global const Obb* box, const SceneSphere* sphere, Placed* placed) {
     Vector center;
     load_vector(box->center, &center);
     float position[3], edge[3][3], size[3];
@@ -65,6 +67,11 @@ INLINE void place_box(global const InstanceRecord* record, global const Obb* box
     for (int k = 0; k < 3; ++k) load_vector_private(edge[k], &placed->edges[k]);
     load_vector_private(size, &placed->error);
     scale3(72.0f * ROUNDOFF, &placed->error);
+    float error[3];
+    Vector moved;
+    placement_error(record, sphere, error);
+    load_vector_private(error, &moved);
+    add_scaled3((real)(1.0f), &moved, &placed->error);
 }
 
 /// A frame along the edges as nearly as may be: the rotation in the matrix that has their directions for its columns.
@@ -104,13 +111,13 @@ INLINE void placed_frame(global const InstanceRecord* record, global const Obb* 
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void instance_leaves(global const uint* order, global const InstanceRecord* instances, global const Obb* mesh_boxes,
                      global const Aabb* aabbs, global float* points, uint stride, global float* errors,
-                     global float* moments, global Obb* boxes, uint count) {
+                     global float* moments, global Obb* boxes, uint count, SceneSphere sphere) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const InstanceRecord* record = &instances[order[i]];
     global const Obb* box = &mesh_boxes[record->mesh];
     Placed placed;
-    place_box(record, box, &placed);
+    place_box(record, box, &sphere, &placed);
     const uint leaf = count + i;
     errors[4 * (size_t)leaf] = placed.error.x;
     errors[4 * (size_t)leaf + 1] = placed.error.y;
@@ -184,19 +191,19 @@ INLINE float placed_measure(const Placed* placed, const Space* space) {
 /// The box of the leaf at sorted position i as it is: the mesh's box in the mesh's space, by way of to_object. Its rows are
 /// those of the mesh's axes times to_object, scaled by a power of two.
 ///
-/// Widened by 12 roundoffs of what the terms amount to: to_object is the inverse rounded once (1), the rows (4) and the
-/// centre (4) take dot products, and a ray that is moved to object space (4) may be off by as much as the point that it
-/// meets. `around` bounds |to_world| times the box about its centre, `from` the terms of the centre.
+/// Widened by 9 roundoffs of what the terms amount to: to_object is the inverse rounded once (1), the rows (4) and the
+/// centre (4) take dot products; and by what a ray that is moved to object space may be off there. `around` bounds |to_world| times
+/// the box about its centre, `magnitude` the terms of the centre besides.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void place_leaves(global const uint* order, global const InstanceRecord* instances, global const Obb* mesh_boxes,
-                  global const Aabb* aabbs, global Obb* boxes, uint count) {
+                  global const Aabb* aabbs, global Obb* boxes, uint count, SceneSphere sphere) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const InstanceRecord* record = &instances[order[i]];
     global const Obb* box = &mesh_boxes[record->mesh];
     const uint leaf = count + i;
     Placed placed;
-    place_box(record, box, &placed);
+    place_box(record, box, &sphere, &placed);
 #if FALLBACK
     Space space;
     space_of(aabbs, &leaf, &space);
@@ -228,6 +235,8 @@ void place_leaves(global const uint* order, global const InstanceRecord* instanc
         sum[row] = row_reach(record->to_world, row, &around) + row_reach(record->to_world, row, &center) +
                    fabs(record->to_world[4 * row + 3]);
     const Vector magnitude = {sum[0], sum[1], sum[2]};
+    float moved[3];
+    object_error(record, &sphere, moved);
     Obb result;
     result.aligned = 0;
     result.center[0] = placed.center.x;
@@ -239,13 +248,13 @@ void place_leaves(global const uint* order, global const InstanceRecord* instanc
             const float weight = box->axes[3 * k + j];
             for (int column = 0; column < 3; ++column)
                 row[column] = fma(weight, record->to_object[4 * j + column], row[column]);
-            error = fma(fabs(weight), row_reach(record->to_object, j, &magnitude) + fabs(record->to_object[4 * j + 3]),
-                        error);
+            const float terms = row_reach(record->to_object, j, &magnitude) + fabs(record->to_object[4 * j + 3]);
+            error = fma(fabs(weight), fma(9.0f * ROUNDOFF, terms, moved[j]), error);
         }
         const float largest = larger(fabs(row[0]), larger(fabs(row[1]), fabs(row[2])));
         const float scale = inverse_power(power_below(largest));
         for (int column = 0; column < 3; ++column) result.axes[3 * k + column] = row[column] * scale;
-        result.extent[k] = fma(12.0f * ROUNDOFF, error, box->extent[k]) * scale;
+        result.extent[k] = fma(1.0f + 4.0f * ROUNDOFF, box->extent[k], error) * scale;
     }
     boxes[leaf] = result;
 }

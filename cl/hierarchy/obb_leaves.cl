@@ -92,7 +92,8 @@ void triangle_leaves(global const uint* order, global const float* positions, gl
         Slabs slabs;
         empty_slabs(&slabs);
         for (int k = 0; k < 3; ++k) add_point(&axes, &p[k], &slabs);
-        const Vector exact = {0.0f, 0.0f, 0.0f};
-        finish_boxes(&space, &axes, &slabs, &exact, boxes, leaf, used);
+        Vector error;
+        hit_error(&error);
+        finish_boxes(&space, &axes, &slabs, &error, boxes, leaf, used);
     }
 }

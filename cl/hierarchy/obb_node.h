@@ -21,7 +21,14 @@ typedef struct Nodes {
     uint count;                 ///< n
 } Nodes;
 
-/// The error of the points below, in the node's space.
+/// How far from its triangle a hit may lie, along each axis, in a node's space: 17 roundoffs of the triangle's longest extent
+/// (traverse/ray_triangle.h), which is less than two units.
+INLINE void hit_error(Vector* error) {
+    const Vector isotropic = {36.0f * ROUNDOFF, 36.0f * ROUNDOFF, 36.0f * ROUNDOFF};
+    *error = isotropic;
+}
+
+/// The error of the points below, or of hits there, in the node's space.
 INLINE void inexact_of(const Nodes* nodes, const uint* index, const Space* space, Vector* inexact) {
 #if POINTS_PER_PRIMITIVE == 8
     real v[8];
@@ -30,8 +37,7 @@ INLINE void inexact_of(const Nodes* nodes, const uint* index, const Space* space
     *inexact = error;
     scale3(space->inverse_unit, inexact);
 #else
-    const Vector none = {0.0f, 0.0f, 0.0f};
-    *inexact = none;
+    hit_error(inexact);
 #endif
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // End-point overlap (Aila, Karras and Laine 2013): how much of each triangle lies inside nodes that it is not below.
 //
-// A triangle is clipped in its own plane: a point of it is v0 + s edge1 + t edge2, so a box is six half-planes of (s, t) and
+// A triangle is clipped in its own plane: a point of it is v0 + s (v1 - v0) + t (v2 - v0), so a box is six half-planes of (s, t) and
 // the clipped share of the area is that of a polygon in (s, t), whatever the frame of the box.
 // ORIENTED=1: nodes have oriented boxes unless they keep their AABB; 0: AABBs.
 // compile: ORIENTED=0
@@ -30,7 +30,7 @@ typedef struct Slab {
 
 INLINE void aabb_slab(global const Aabb* box, global const Triangle* triangle, int k, Slab* slab) {
     const float v0 = triangle->v0[k];
-    slab->corners = (float3)(v0, v0 + triangle->edge1[k], v0 + triangle->edge2[k]);
+    slab->corners = (float3)(v0, triangle->v1[k], triangle->v2[k]);
     slab->low = box->min[k];
     slab->high = box->max[k];
 }
@@ -38,13 +38,9 @@ INLINE void aabb_slab(global const Aabb* box, global const Triangle* triangle, i
 #if ORIENTED
 INLINE void obb_slab(global const Obb* box, global const Triangle* triangle, int k, Slab* slab) {
     global const float* axis = box->axes + 3 * k;
-    float v0 = 0.0f, edge1 = 0.0f, edge2 = 0.0f;
-    for (int i = 0; i < 3; ++i) {
-        v0 += axis[i] * (triangle->v0[i] - box->center[i]);
-        edge1 += axis[i] * triangle->edge1[i];
-        edge2 += axis[i] * triangle->edge2[i];
-    }
-    slab->corners = (float3)(v0, v0 + edge1, v0 + edge2);
+    slab->corners = (float3)(0.0f);
+    for (int i = 0; i < 3; ++i)
+        slab->corners += axis[i] * ((float3)(triangle->v0[i], triangle->v1[i], triangle->v2[i]) - box->center[i]);
     slab->low = -box->extent[k];
     slab->high = box->extent[k];
 }
@@ -131,8 +127,8 @@ void end_point_overlap(global const uint2* children, global const uint* parents,
     if (sample >= samples) return;
     const uint position = (uint)((ulong)sample * count / samples);
     global const Triangle* triangle = triangles + position;
-    const float3 edge1 = (float3)(triangle->edge1[0], triangle->edge1[1], triangle->edge1[2]) / unit;
-    const float3 edge2 = (float3)(triangle->edge2[0], triangle->edge2[1], triangle->edge2[2]) / unit;
+    const float3 v0 = vload3(0, triangle->v0);
+    const float3 edge1 = (vload3(0, triangle->v1) - v0) / unit, edge2 = (vload3(0, triangle->v2) - v0) / unit;
     areas[sample] = 0.5f * length(cross(edge1, edge2));
 
     const uint tree = segment_of(offsets, trees, position);

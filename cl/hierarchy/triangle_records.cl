@@ -5,6 +5,7 @@
 // compile: NAMED=0
 // compile: NAMED=1
 #include "runtime/numerics.h"
+#include "bounds/collinear.h"
 #include "primitives/segments.h"
 #include "shared/triangle.h"
 
@@ -26,13 +27,12 @@ void triangle_records(global const uint* order, global const uint* offsets, glob
         while (i >= offsets[tree + 1]) ++tree;
         const uint primitive = order[i];
         global const uint* corner = triangles + 3 * (size_t)primitive;
+        float3 v0 = vload3(corner[0], positions), v1 = vload3(corner[1], positions), v2 = vload3(corner[2], positions);
+        mark_collinear(&v0, &v1, &v2);
         Triangle record;
-        for (int k = 0; k < 3; ++k) {
-            const float a = positions[3 * (size_t)corner[0] + k];
-            record.v0[k] = a;
-            record.edge1[k] = positions[3 * (size_t)corner[1] + k] - a;
-            record.edge2[k] = positions[3 * (size_t)corner[2] + k] - a;
-        }
+        vstore3(v0, 0, record.v0);
+        vstore3(v1, 0, record.v1);
+        vstore3(v2, 0, record.v2);
         record.primitive = NAMED ? names[primitive] : primitive - offsets[tree];
         record.reserved1 = record.reserved2 = 0;
         records[i] = record;

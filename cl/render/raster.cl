@@ -11,16 +11,12 @@
 #include "shared/instance.h"
 #include "shared/ray.h"
 #define LAYOUT 2
-typedef Triangle leaf_t;
+#include "traverse/begin_ray.h"
 #include "traverse/ray_triangle.h"
 
 #if !defined(FLATTENED) || !defined(GROUP_SIZE)
 #error "define FLATTENED (0 or 1) and GROUP_SIZE"
 #endif
-
-// A pixel that is the triangle's though the ray test, by rounding, finds the ray beside it, takes its point from the edge
-// functions. Its distance is made this much longer, so that where the test gives the pixel to the neighbour, the neighbour keeps it.
-#define BESIDE 0x1p-16f
 
 /// The first of the ascending `keys` that is not below `key`.
 INLINE uint lower_bound(global const uint* keys, uint count, uint key) {
@@ -35,42 +31,22 @@ INLINE uint lower_bound(global const uint* keys, uint count, uint key) {
     return low;
 }
 
-/// The point of the triangle that the edge functions, `value` of each, are for.
-INLINE void interpolate(const LocalRay* ray, global const Triangle* surface, const float* value, Crossing* crossing) {
-    const float3 weight = fmax((float3)(fabs(value[0]), fabs(value[1]), fabs(value[2])), FLT_MIN);
-    const float sum = weight.x + weight.y + weight.z;
-    crossing->u = weight.y / sum;
-    crossing->v = fmin(weight.z / sum, 1.0f - crossing->u);
-    const float3 within = crossing->u * vload3(0, surface->edge1) + crossing->v * vload3(0, surface->edge2);
-    const float3 point = vload3(0, surface->v0) + within;
-    const float largest = fmax(fmax(fabs(ray->direction.x), fabs(ray->direction.y)), fabs(ray->direction.z));
-    const float3 direction = ray->direction / largest;
-    crossing->t = dot(point - ray->origin, direction) / dot(direction, direction) / largest * (1.0f + BESIDE);
-}
-
-/// Puts the triangle into the pixel of `ray` at offset (x, y) if it is there and nearest. Triangles come in ascending order, so
-/// that of equal distances the first is kept, as in traversal.
-INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, global const Ray* ray, float x,
-                       float y, const float* value, global Hit* hit) {
-    const float4 origin = vload4(0, ray->origin), direction = vload4(0, ray->direction);
-    if (!is_valid_ray(origin, direction)) return;
-    // As begin_walk and to_object_space do.
-    const uint exponent = direction_exponent(direction);
-    const float to_scaled = as_float(exponent << 23), scale = as_float((254u - exponent) << 23);
+/// Puts the triangle into the pixel of `ray` if it is there and nearest. Triangles come in ascending order, so that of equal distances
+/// the first is kept, as in traversal.
+INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, const SceneSphere* sphere,
+                       global const Ray* ray, global Hit* hit) {
     LocalRay local_ray;
-    make_local_ray(origin.xyz, direction.xyz * scale, &local_ray);
+    Units units;
+    float t_min, t_max;
+    if (!begin_ray(ray, sphere, &local_ray, &units, &t_min, &t_max)) return;
 #if !FLATTENED
     const LocalRay world_ray = local_ray;
     to_object_space(&world_ray, place, &local_ray);
 #endif
     Crossing crossing;
-    if (!ray_triangle(&local_ray, &triangle->surface, -INFINITY, FLT_MAX, &crossing)) {
-        if (side_shown(triangle, x, y) == 0) return;
-        interpolate(&local_ray, &triangle->surface, value, &crossing);
-    }
-    const float t_max = fmin(fmin(direction.w, FLT_MAX) * to_scaled, FLT_MAX);
-    const float t = crossing.t * scale;
-    if (!(crossing.t > origin.w * to_scaled && crossing.t <= t_max && t < hit->t)) return;
+    if (!ray_triangle(&local_ray, &triangle->surface, t_min, t_max, &crossing)) return;
+    const float t = caller_distance(ray, &units, crossing.t);
+    if (!(t < hit->t)) return;
     hit->t = t;
     hit->u = crossing.u;
     hit->v = crossing.v;
@@ -80,8 +56,8 @@ INLINE void draw_pixel(global const ScreenTriangle* triangle, global const Insta
 
 /// The pixels of a triangle in the rows and columns given.
 INLINE void draw_triangle(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
-                          global const InstanceRecord* place, int left, int right, int top, int bottom,
-                          global const Ray* rays, global Hit* hits) {
+                          global const InstanceRecord* place, const SceneSphere* sphere, int left, int right, int top,
+                          int bottom, global const Ray* rays, global Hit* hits) {
     Edges edges;
     make_edges(triangle, (float)window->width, (float)camera->height, &edges);
     const float3 e0 = edges.edge[0], e1 = edges.edge[1], e2 = edges.edge[2];
@@ -98,7 +74,7 @@ INLINE void draw_triangle(global const CameraRecord* camera, const Window* windo
             if (!positive && !negative) continue;
             const long pixel = first + column;
             if (pixel >= 0 && pixel < (long)window->count && triangle->nearest < hits[pixel].t)
-                draw_pixel(triangle, place, rays + pixel, x, y, value, hits + pixel);
+                draw_pixel(triangle, place, sphere, rays + pixel, hits + pixel);
         }
     }
 }
@@ -117,7 +93,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void clear_hits(u
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
 draw_tiles(global const CameraRecord* camera, global const InstanceRecord* instances,
            global const ScreenTriangle* triangles, global const uint* keys, global const uint* values, uint pairs, uint tiles,
-           uint first_pixel, global const Ray* rays, uint pixel_count, global Hit* hits) {
+           uint first_pixel, global const Ray* rays, uint pixel_count, SceneSphere sphere, global Hit* hits) {
     const uint tile = (uint)get_global_id(0);
     if (tile >= tiles) return;
     Window window;
@@ -127,7 +103,7 @@ draw_tiles(global const CameraRecord* camera, global const InstanceRecord* insta
     for (uint pair = lower_bound(keys, pairs, tile); pair < pairs && keys[pair] == tile; ++pair) {
         global const ScreenTriangle* triangle = triangles + values[pair];
         global const InstanceRecord* place = instances + (FLATTENED ? 0 : triangle->instance);
-        draw_triangle(camera, &window, triangle, place, max(left, triangle->left),
+        draw_triangle(camera, &window, triangle, place, &sphere, max(left, triangle->left),
                       min(left + BOXWOOD_TILE - 1, triangle->right), max(top, triangle->top),
                       min(top + BOXWOOD_TILE - 1, triangle->bottom), rays, hits);
     }

@@ -3,7 +3,6 @@
 // of the eye need no clipping.
 #ifndef BOXWOOD_RENDER_RASTER_H
 #define BOXWOOD_RENDER_RASTER_H
-#include "render/exact_sign.h"
 #include "render/pixel_offset.h"
 #include "runtime/inline.h"
 #include "runtime/numerics.h"
@@ -13,6 +12,12 @@
 // that no pixel is left out that the ray test, which rounds in its own way, gives to the triangle: eight times the rounding of
 // the function (3u for its coefficients, 2u for its value, u = 2^-24) and of the corners (3u).
 #define EDGE_SLACK 0x1p-18f
+
+/// a b - c d, off by at most 1.5 units in the last place, so that its sign is exact (Kahan; Jeannerod et al. 2013).
+inline float difference_of_products(float a, float b, float c, float d) {
+    const float product = c * d;
+    return fma(a, b, -product) - fma(c, d, -product);
+}
 
 /// The pixels that are drawn: rows top to bottom of a picture `width` across, from number `first` on.
 typedef struct Window {
@@ -147,19 +152,6 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
         edges->edge[i] = edge;
         edges->slack[i] = EDGE_SLACK * (fabs(edge.x) * width + fabs(edge.y) * height + fabs(edge.z));
     }
-}
-
-/// Decides exactly whether the pixel is the triangle's, which all three edges then have on the same side: 1 or -1 by the side
-/// that the triangle shows, 0 when it is not.
-inline int side_shown(global const ScreenTriangle* triangle, float x, float y) {
-    int sides = 0;
-    for (int i = 0; i < 3 && abs(sides) == (uint)i; ++i) {
-        float a[3], b[3];
-        vstore3(vload3(0, triangle->corners[(i + 1) % 3]), 0, a);
-        vstore3(vload3(0, triangle->corners[(i + 2) % 3]), 0, b);
-        sides += side_of_point(x, y, a, b);
-    }
-    return (sides == 3) - (sides == -3);
 }
 
 /// Whether the rectangle of offsets around (x, y), `reach_x` and `reach_y` to each side, may have a pixel of the triangle.

@@ -6,6 +6,7 @@
 //
 // compile: FLATTENED=0
 // compile: FLATTENED=1
+#include "bounds/collinear.h"
 #include "primitives/segments.h"
 #include "render/raster.h"
 #include "shared/instance.h"
@@ -58,17 +59,18 @@ setup_triangles(global const float* positions, global const uint* triangles, glo
         const uint primitive = placed - first_triangles[instance];
         global const InstanceRecord* place = instances + (FLATTENED ? 0 : instance);
         const uint3 corner = vload3(FLATTENED ? placed : meshes[place->mesh].first_triangle + primitive, triangles);
-        const float3 v0 = vload3(corner.x, positions);
-        const float3 v1 = vload3(corner.y, positions);
-        const float3 v2 = vload3(corner.z, positions);
+        float3 v0 = vload3(corner.x, positions);
+        float3 v1 = vload3(corner.y, positions);
+        float3 v2 = vload3(corner.z, positions);
         const float3 seen[3] = {seen_from(&eye, place->to_world, v0), seen_from(&eye, place->to_world, v1),
                                 seen_from(&eye, place->to_world, v2)};
         ScreenTriangle triangle;
         tiles[i] = 0;
         if (!place_on_screen(camera, &window, seen, &triangle)) continue;
+        mark_collinear(&v0, &v1, &v2);
         vstore3(v0, 0, triangle.surface.v0);
-        vstore3(v1 - v0, 0, triangle.surface.edge1);
-        vstore3(v2 - v0, 0, triangle.surface.edge2);
+        vstore3(v1, 0, triangle.surface.v1);
+        vstore3(v2, 0, triangle.surface.v2);
         triangle.surface.primitive = primitive;
         triangle.surface.reserved1 = triangle.surface.reserved2 = 0;
         triangle.instance = instance;

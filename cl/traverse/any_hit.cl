@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Whether each ray hits anything. Macros: traverse/config.h.
 //
-// compile: LAYOUT=2 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
-// compile: LAYOUT=2 ORIENTED=1 LEVELS=1 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
-// compile: LAYOUT=2 ORIENTED=0 LEVELS=2 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
-// compile: LAYOUT=2 ORIENTED=1 LEVELS=2 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
-// compile: LAYOUT=8 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
-// compile: LAYOUT=8 ORIENTED=0 LEVELS=2 FLATTENED=0 AREAS=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
-// compile: LAYOUT=2 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=1 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
-// compile: LAYOUT=8 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=1 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
+// compile: LAYOUT=2 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
+// compile: LAYOUT=2 ORIENTED=1 LEVELS=1 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
+// compile: LAYOUT=2 ORIENTED=0 LEVELS=2 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
+// compile: LAYOUT=2 ORIENTED=1 LEVELS=2 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
+// compile: LAYOUT=8 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
+// compile: LAYOUT=8 ORIENTED=0 LEVELS=2 FLATTENED=0 AREAS=0 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
+// compile: LAYOUT=2 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=1 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
+// compile: LAYOUT=2 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=0 INTERSECTOR=1 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
+// compile: LAYOUT=8 ORIENTED=0 LEVELS=2 FLATTENED=0 AREAS=0 INTERSECTOR=1 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=0
+// compile: LAYOUT=8 ORIENTED=0 LEVELS=1 FLATTENED=0 AREAS=1 INTERSECTOR=0 STATISTICS=0 STACK_SIZE=32 PORTABLE_LANES=1
 #define ANY_HIT 1
 #include "traverse/traversal.h"
 
 /// Each work-item traces `slice` consecutive rays.
 ///
-/// @pre  A valid, not empty tree within the stack bound of walk.h. `top_nodes` and `instances` are read for two levels
+/// @pre  A valid, not empty tree within the stack bound of walk.h; all of it in `sphere`. `top_nodes` and `instances` are read for two levels
 ///       only, `areas`, `area_nodes` and `area_items` for areas only; otherwise they may be null.
 /// @post hits[i] is 1 when rays[i] hits something, else 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
     global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
     global const InstanceRecord* instances, global const LocalArea* areas, global const AreaNode* area_nodes,
-    global const uint* area_items, global const Ray* rays, uint ray_count, uint slice, global uint* hits) {
+    global const uint* area_items, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere, global uint* hits) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
     const Arrays arrays = {nodes, (global const char*)leaves, sizeof(leaf_t)};
@@ -31,13 +33,13 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
         Walk walk;
         entry_t stack[STACK_SIZE];
         LocalRay ray;
-        float scale;
-        if (begin_walk(&rays[i], &ray, &scale, &walk)) {
+        Units units;
+        if (begin_walk(&rays[i], &sphere, &ray, &units, &walk)) {
 #if LEVELS == 2
             traverse_top(&ray, &top, &arrays, &walk, stack);
 #elif AREAS
             const Areas area_arrays = {areas, area_nodes, area_items};
-            traverse_areas(&ray, &area_arrays, &arrays, &walk, stack);
+            traverse_areas(&ray, &units, &area_arrays, &arrays, &walk, stack);
 #else
             traverse_bottom(&ray, &arrays, 0, 0, &walk, stack);
 #endif

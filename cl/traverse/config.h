@@ -7,6 +7,7 @@
 // LEVELS          1: one tree in world space; 2: a tree over instances above a tree per mesh.
 // FLATTENED       1: one level that holds the triangles of several instances; 0: anything else.
 // AREAS           1: influence areas with trees of their own, searched first; one level only.
+// INTERSECTOR     0: the watertight triangle test; 1: that of Moller and Trumbore.
 // STATISTICS      1: count the volumes and primitives tested.
 // STACK_SIZE      Entries of the stack, see stack.h.
 // PORTABLE_LANES  See runtime/lanes.h.
@@ -14,8 +15,8 @@
 #define BOXWOOD_TRAVERSE_CONFIG_H
 
 #if !defined(ANY_HIT) || !defined(LAYOUT) || !defined(ORIENTED) || !defined(LEVELS) || !defined(FLATTENED) || \
-    !defined(AREAS) || !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
-#error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, AREAS, STATISTICS, STACK_SIZE and GROUP_SIZE"
+    !defined(AREAS) || !defined(INTERSECTOR) || !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
+#error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, AREAS, INTERSECTOR, STATISTICS, STACK_SIZE and GROUP_SIZE"
 #endif
 #if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || \
     (AREAS && (LEVELS != 1 || ORIENTED)) || STACK_SIZE < 1
@@ -28,17 +29,13 @@
 #include "shared/instance.h"
 #include "shared/node.h"
 #include "shared/ray.h"
-#include "shared/triangle.h"
 
 #if LAYOUT == 8
 typedef Wide8Node node_t;
-typedef Triangle4 leaf_t;
 #elif ORIENTED
 typedef OrientedNode node_t;
-typedef Triangle leaf_t;
 #else
 typedef BinaryNode node_t;
-typedef Triangle leaf_t;
 #endif
 
 #endif

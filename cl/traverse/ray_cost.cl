@@ -12,6 +12,7 @@
 #define LEVELS 1
 #define FLATTENED 0
 #define AREAS 0
+#define INTERSECTOR 0
 #define STATISTICS 0
 #include "traverse/traversal.h"
 #include "shared/visits.h"
@@ -96,7 +97,7 @@ INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, Walk*
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void ray_visits(global const uint2* children, global const uint* far_ends, global const uint* leaves,
                 global const Aabb* volumes, global const Triangle* triangles, uint count, global const Ray* rays,
-                uint ray_count, uint slice, global RayVisits* all_visits, global Hit* hits) {
+                uint ray_count, uint slice, SceneSphere sphere, global RayVisits* all_visits, global Hit* hits) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = begin < ray_count ? begin + min(slice, ray_count - begin) : begin;
     const MarkedTree tree = {children, far_ends, leaves, volumes, triangles, count};
@@ -105,17 +106,13 @@ void ray_visits(global const uint2* children, global const uint* far_ends, globa
         Walk walk;
         entry_t stack[STACK_SIZE];
         LocalRay ray;
-        float scale;
+        Units units;
         RayVisits visits = {0, 0, 0, 0};
-        if (begin_walk(&rays[i], &ray, &scale, &walk)) {
+        if (begin_walk(&rays[i], &sphere, &ray, &units, &walk)) {
             meet_all(&tree, &ray, root, &walk, stack, &visits);
             search(&tree, &ray, root, &walk, stack, &visits);
         }
         all_visits[i] = visits;
-        hits[i].t = walk.primitive == BOXWOOD_NONE ? INFINITY : walk.t_max * scale;
-        hits[i].u = walk.u;
-        hits[i].v = walk.v;
-        hits[i].primitive = walk.primitive;
-        hits[i].instance = walk.instance;
+        end_walk(&rays[i], &units, &walk, &hits[i]);
     }
 }

@@ -3,6 +3,7 @@
 // stack (dissertation 3.4 and 3.6.3; lecture slides on closest-hit and boolean intersection).
 #ifndef BOXWOOD_TRAVERSE_TRAVERSAL_H
 #define BOXWOOD_TRAVERSE_TRAVERSAL_H
+#include "traverse/begin_ray.h"
 #include "traverse/visit_node.h"
 #if AREAS
 #include "traverse/area_lookup.h"
@@ -74,10 +75,18 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 /// angle between them. Its box reaches beyond the exit, so it is met, and its hit counts, as t_start has not moved.
 ///
 /// Any hit: a triangle of the local tree is one of the scene, so a hit in it is an answer wherever it lies.
-INLINE void traverse_areas(const LocalRay* ray, const Areas* areas, const Arrays* arrays, Walk* walk, entry_t* stack) {
+///
+/// A ray from far away searches the global tree alone.
+INLINE void traverse_areas(const LocalRay* ray, const Units* units, const Areas* areas, const Arrays* arrays, Walk* walk,
+                           entry_t* stack) {
     const float t_max = walk->t_max;
-    float exit;
-    const uint area = find_area(areas, ray->origin, ray->direction, walk->t_min, &exit);
+    const float length = power_of_two(units->direction);
+    float exit = 0.0f;
+    uint area = BOXWOOD_NONE;
+    if (units->moved.high == 0.0f) {
+        area = find_area(areas, ray->origin, ray->direction / length, walk->t_min * length, &exit);
+        exit /= length;
+    }
     uint searches = area == BOXWOOD_NONE ? 1 : 2;
     uint root = area == BOXWOOD_NONE ? 0 : areas->areas[area].root;
 #if EXIT_RULE && !ANY_HIT
@@ -101,11 +110,8 @@ INLINE void traverse_areas(const LocalRay* ray, const Areas* areas, const Arrays
 
 #endif
 
-/// Sets up `walk` and the ray in world space, with its direction scaled by the power of two *scale: distances in `walk`
-/// are t / *scale. False when the ray cannot hit anything.
-INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Walk* walk) {
-    const float4 origin = vload4(0, source->origin);
-    const float4 direction = vload4(0, source->direction);
+/// Sets up `walk` and the ray in world space. False when the ray cannot hit anything.
+INLINE bool begin_walk(global const Ray* source, const SceneSphere* sphere, LocalRay* ray, Units* units, Walk* walk) {
     walk->primitive = BOXWOOD_NONE;
     walk->instance = BOXWOOD_NONE;
     walk->u = 0.0f;
@@ -116,18 +122,21 @@ INLINE bool begin_walk(global const Ray* source, LocalRay* ray, float* scale, Wa
     walk->statistics.primitives = 0;
     walk->statistics.areas = 0;
 #endif
-    const uint exponent = direction_exponent(direction);
-    const float to_scaled = as_float(exponent << 23);
-    *scale = as_float((254u - exponent) << 23);
-    if (!is_valid_ray(origin, direction)) return false;
-    make_local_ray(origin.xyz, direction.xyz * *scale, ray);
-    walk->t_min = origin.w * to_scaled;
+    if (!begin_ray(source, sphere, ray, units, &walk->t_min, &walk->t_max)) return false;
 #if AREAS
     walk->t_start = walk->t_min;
 #endif
-    // No hit at an infinite distance, in either unit: that is how a miss is written.
-    walk->t_max = fmin(fmin(direction.w, FLT_MAX) * to_scaled, FLT_MAX);
     return true;
+}
+
+/// The hit of a ray that was begun, or the miss of one that could not.
+INLINE void end_walk(global const Ray* source, const Units* units, const Walk* walk, global Hit* hit) {
+    const bool is_hit = walk->primitive != BOXWOOD_NONE;
+    hit->t = is_hit ? caller_distance(source, units, walk->t_max) : INFINITY;
+    hit->u = walk->u;
+    hit->v = walk->v;
+    hit->primitive = walk->primitive;
+    hit->instance = walk->instance;
 }
 
 #endif

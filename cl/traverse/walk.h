@@ -3,7 +3,11 @@
 #ifndef BOXWOOD_TRAVERSE_WALK_H
 #define BOXWOOD_TRAVERSE_WALK_H
 #include "traverse/config.h"
+#if INTERSECTOR == 0
 #include "traverse/ray_triangle.h"
+#else
+#include "traverse/moller_trumbore.h"
+#endif
 
 // A stack entry is the distance to a child's box and, in the lower half, the child reference. Distances are not negative,
 // so entries compare as their distances do.

@@ -52,6 +52,7 @@ struct Primitives {
     Buffer<Aabb> boxes;
     Buffer<Aabb> bounds; ///< One: of all.
     Buffer<float> barycentres;
+    SceneSphere sphere;
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
 };
@@ -71,7 +72,7 @@ Primitives upload_primitives(Device& device, const Mesh& mesh) {
     Scene scene;
     scene.meshes.push_back(mesh);
     scene.instances.push_back({"", 0, glm::mat4(1.0f)});
-    Primitives primitives{upload(device, scene), {}, {}, barycentres_of(device, mesh)};
+    Primitives primitives{upload(device, scene), {}, {}, barycentres_of(device, mesh), scene_sphere(scene)};
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     primitives.boxes = make_buffer<Aabb>(device, count, "boxes of triangles");
     const Slices slices = cut(device, count);
@@ -119,7 +120,7 @@ TreeResult study_tree(Device& device, const Primitives& primitives, InfluenceRec
                                     static_cast<float>(box_price), static_cast<float>(primitive_price));
     TreeResult result;
     follow_rays(device,
-                {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {})},
+                {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {}), primitives.sphere},
                 rays, result);
     const AnalysisTree nodes = analysis_tree(device, tree.topology, volumes, tree.leaves);
     area.share = 1.0f; // all rays that are followed

@@ -209,7 +209,7 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
 
 Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<const Aabb> aabbs,
                         BufferView<const InstanceRecord> instances, BufferView<const Obb> mesh_boxes,
-                        const BoundsOptions& options) {
+                        const SceneSphere& sphere, const BoundsOptions& options) {
     Fit fit = make_fit(device, topology, aabbs, options, 8);
     fit.errors = make_scratch<float>(device, 8 * std::size_t{fit.count}, "errors of corners");
     const auto kernel = [&](const char* kernel_name) {
@@ -217,7 +217,7 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
                          {{"LANES", "1"}, {"MOMENTS", flag(options.kind == Bounds::obb_moments)}});
     };
     launch(device, kernel("instance_leaves"), "leaf boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
-           fit.points, fit.stride, fit.errors, fit.moments, fit.boxes, fit.count);
+           fit.points, fit.stride, fit.errors, fit.moments, fit.boxes, fit.count, sphere);
     launch(device, {"hierarchy/obb_empty.cl", "empty_boxes"}, "unused boxes", 1, topology.offsets, fit.boxes, 1u);
     const NodeLevels levels = node_levels(device, topology);
     each_level(levels, [&](std::uint32_t first, std::uint32_t size) {
@@ -226,7 +226,7 @@ Buffer<Obb> obb_volumes(Device& device, const Topology& topology, BufferView<con
     });
     fit_inner_nodes(fit, levels);
     launch(device, kernel("place_leaves"), "placed boxes", fit.count, topology.order, instances, mesh_boxes, aabbs,
-           fit.boxes, fit.count);
+           fit.boxes, fit.count, sphere);
     return std::move(fit.boxes);
 }
 

@@ -122,9 +122,10 @@ void share_areas(Device& device, const BuildOptions& options, BuildParts& parts)
 }
 
 /// `placed` is the scene itself for two levels, flattened for one.
-Tree build_placed(Device& device, const Scene& placed, const BuildOptions& options, bool two_levels,
-                  BuildParts& parts) {
+Tree build_placed(Device& device, const Scene& placed, const SceneSphere& sphere, const BuildOptions& options,
+                  bool two_levels, BuildParts& parts) {
     Tree tree = empty_tree(options);
+    tree.sphere = sphere;
     tree.levels = two_levels ? Levels::two : Levels::one;
     check_capacity(device, tree.layout, tree.bounds, placed.triangle_count(), placed.vertex_count(),
                    two_levels ? placed.instances.size() : 0, options.builder);
@@ -171,10 +172,11 @@ Tree empty_tree(const BuildOptions& options) {
 
 Tree build_tree(Device& device, const Scene& scene, const BuildOptions& options, BuildParts& parts) {
     const bool two_levels = requirements(scene, options).two_levels;
-    if (two_levels || is_flat(scene)) return build_placed(device, scene, options, two_levels, parts);
+    const SceneSphere sphere = scene_sphere(scene);
+    if (two_levels || is_flat(scene)) return build_placed(device, scene, sphere, options, two_levels, parts);
     const Tree tree = empty_tree(options);
     check_capacity(device, tree.layout, tree.bounds, scene.instanced_triangle_count(), 0, 0, options.builder);
-    return build_placed(device, flatten(scene), options, false, parts);
+    return build_placed(device, flatten(scene), sphere, options, false, parts);
 }
 
 void add_instance_lookup(Device& device, const Scene& scene, Tree& tree) {
@@ -216,11 +218,11 @@ void build_top_level(Device& device, const Scene& scene, const BuildOptions& opt
     const auto count = static_cast<std::uint32_t>(records.size());
     const Buffer<Aabb> boxes = make_scratch<Aabb>(device, count, "boxes of instances");
     launch(device, {"bounds/primitive_bounds.cl", "instance_bounds"}, "instance boxes", count, tree.instances,
-           parts.bottom.tree_bounds, boxes, count);
+           parts.bottom.tree_bounds, boxes, count, tree.sphere);
     parts.top = forest_over(device, boxes, {0, count}, options, {}, 1, "top_level");
     if (tree.bounds != Bounds::aabb)
         parts.top.boxes = obb_volumes(device, parts.top.topology, parts.top.volumes, tree.instances, parts.mesh_boxes,
-                                      options.bounds);
+                                      tree.sphere, options.bounds);
     collapse_top(device, parts.top, tree);
 }
 

@@ -20,6 +20,7 @@ TreeImage download(Device& device, const Tree& tree) {
     image.first_triangles = download(device, tree.first_triangles);
     image.areas = download(device, tree.areas);
     image.area_index = {tree.area_index, download(device, tree.area_nodes), download(device, tree.area_items)};
+    image.sphere = tree.sphere;
     image.bottom_depth = tree.bottom_depth;
     image.top_depth = tree.top_depth;
     return image;
@@ -44,6 +45,7 @@ Tree upload(Device& device, const TreeImage& image) {
     tree.area_nodes = upload(device, image.area_index.nodes, "nodes of areas");
     tree.area_items = upload(device, image.area_index.items, "lists of areas");
     tree.area_index = image.area_index.kind;
+    tree.sphere = image.sphere;
     tree.bottom_depth = image.bottom_depth;
     tree.top_depth = image.top_depth;
     return tree;

@@ -41,15 +41,15 @@ struct PrimitiveSet {
 
 const char* wrong_with(const Triangle& leaf, PrimitiveSet& primitives) {
     if (leaf.reserved1 != 0 || leaf.reserved2 != 0) return "has a reserved word that is not zero";
-    if (!all_finite(leaf.v0) || !all_finite(leaf.edge1) || !all_finite(leaf.edge2)) return "is not finite";
+    if (!all_finite(leaf.v0) || !all_finite(leaf.v1) || !all_finite(leaf.v2)) return "is not finite";
     return primitives.reach(leaf.primitive);
 }
 
 const char* wrong_with(const Triangle4& leaf, PrimitiveSet& primitives) {
     for (std::uint32_t slot = 0; slot < 4; ++slot) {
         const std::array<float, 9> values = {leaf.v0_x[slot],    leaf.v0_y[slot],    leaf.v0_z[slot],
-                                             leaf.edge1_x[slot], leaf.edge1_y[slot], leaf.edge1_z[slot],
-                                             leaf.edge2_x[slot], leaf.edge2_y[slot], leaf.edge2_z[slot]};
+                                             leaf.v1_x[slot], leaf.v1_y[slot], leaf.v1_z[slot],
+                                             leaf.v2_x[slot], leaf.v2_y[slot], leaf.v2_z[slot]};
         if (leaf.primitive[slot] == BOXWOOD_NONE) {
             if (slot == 0) return "has no triangle";
             if (!all_zero(values)) return "has an unused slot that is not zero";
@@ -182,6 +182,12 @@ void check_first_triangles(const TreeImage& tree, const Scene& scene, const std:
     }
 }
 
+void check_sphere(const TreeImage& tree, const Scene& scene, const std::string& file) {
+    const SceneSphere sphere = scene_sphere(scene);
+    if (!std::ranges::equal(tree.sphere.center, sphere.center) || tree.sphere.radius != sphere.radius)
+        throw InputError(file, "sphere", "is not that of the scene");
+}
+
 /// The trees of all meshes that have an instance; one root per mesh, no node shared between meshes.
 template <class LayoutArrays>
 void check_bottom_level(const TreeImage& tree, const Scene& scene, const LayoutArrays& arrays,
@@ -277,6 +283,7 @@ void validate(const TreeImage& tree, const Scene& scene, const std::string& file
         check_layout(tree, scene, arrays, file);
     }
     check_first_triangles(tree, scene, file);
+    check_sphere(tree, scene, file);
     check_areas(tree, file);
 }
 

@@ -99,6 +99,7 @@ void AnimatedTree::State::place(std::vector<glm::mat4>& transforms) {
     if (transforms.empty()) return;
     Tree next = like(tree);
     swap_transforms(scene, transforms);
+    next.sphere = scene_sphere(scene);
     try {
         build_top_level(device, scene, options, parts, next);
         device.finish();
@@ -141,7 +142,7 @@ Buffer<float> AnimatedTree::State::changed_positions(std::uint32_t mesh,
     return changed;
 }
 
-/// The tree over the same topology with the triangles at `positions`, which are exchanged with those in `parts`.
+/// The tree over the same topology with the triangles of `scene` at `positions`, which are exchanged with those in `parts`.
 Tree AnimatedTree::State::fit(Buffer<float>& positions) {
     Buffer<Aabb> tree_bounds;
     Buffer<Obb> mesh_boxes;
@@ -151,6 +152,7 @@ Tree AnimatedTree::State::fit(Buffer<float>& positions) {
         std::swap(parts.mesh_boxes, mesh_boxes);
     };
     Tree next = like(tree);
+    next.sphere = scene_sphere(scene);
     exchange();
     try {
         fit_bottom(device, parts);
@@ -220,14 +222,19 @@ void AnimatedTree::refit(std::uint32_t mesh, const std::vector<glm::vec3>& posit
         if (state.scene.instances[i].mesh == mesh)
             check_placement("refit", element("instances", i) + ".transform", state.scene.instances[i].transform,
                             bounds);
-    std::vector<glm::vec3> kept = positions;
+    std::vector<glm::vec3> exchanged = positions;
+    std::swap(state.scene.meshes[mesh].positions, exchanged);
     if (!state.tree.empty()) {
-        Buffer<float> changed = state.changed_positions(mesh, positions);
-        Tree next = state.fit(changed);
-        next.first_triangles = std::move(state.tree.first_triangles);
-        state.tree = std::move(next);
+        try {
+            Buffer<float> changed = state.changed_positions(mesh, positions);
+            Tree next = state.fit(changed);
+            next.first_triangles = std::move(state.tree.first_triangles);
+            state.tree = std::move(next);
+        } catch (...) {
+            std::swap(state.scene.meshes[mesh].positions, exchanged);
+            throw;
+        }
     }
-    state.scene.meshes[mesh].positions = std::move(kept);
     state.mesh_bounds[mesh] = bounds;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The .bxw container, version 4. Little-endian, no padding, so that every byte is either compared or under a checksum:
+// The .bxw container, version 5. Little-endian, no padding, so that every byte is either compared or under a checksum:
 //
 //     Header
 //     SectionEntry[section_count]

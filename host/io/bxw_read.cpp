@@ -219,6 +219,7 @@ BxwFile read(std::istream& in, std::uint64_t size, const std::string& file) {
     result.scene = read_scene(sections, file);
     result.tree = read_tree(sections, file);
     validate(result.scene, file);
+    result.tree.sphere = scene_sphere(result.scene);
     validate(result.tree, result.scene, file);
     return result;
 }

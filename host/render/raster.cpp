@@ -64,7 +64,7 @@ struct Batch {
 } // namespace
 
 Rasteriser::Rasteriser(Device& device, const Scene& scene, const Tree& tree, const Geometry& geometry)
-    : device_(device), geometry_(geometry), instances_(static_cast<std::uint32_t>(scene.instances.size())) {
+    : device_(device), geometry_(geometry), sphere_(tree.sphere), instances_(static_cast<std::uint32_t>(scene.instances.size())) {
     const std::vector<std::uint32_t> before = placed_before(scene);
     placed_ = before.back();
     first_placed_ = upload(device, before, "placed triangles");
@@ -113,7 +113,7 @@ void Rasteriser::draw(BufferView<const CameraRecord> camera, std::uint32_t width
         radix_sort(device_, keys, values, 0, std::bit_width(tiles.count - 1));
         launch(device_, {"render/raster.cl", "draw_tiles", drawing}, "draw tiles", tiles.count, camera,
                geometry.instances, batch.triangles, keys, values, static_cast<std::uint32_t>(pairs), tiles.count,
-               first_pixel, rays, tiles.pixels, hits);
+               first_pixel, rays, tiles.pixels, sphere_, hits);
     }
 }
 

@@ -55,6 +55,12 @@ requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= 8) 
     return {&value, sizeof(T)};
 }
 
+/// A shared struct, by value.
+template <class T>
+requires(std::is_class_v<T>&& std::is_trivially_copyable_v<T>) Argument to_argument(const T& value) {
+    return {&value, sizeof(T)};
+}
+
 template <class T>
 struct LaunchArgument {
     using type = T;
@@ -74,7 +80,7 @@ void launch_converted(Device& device, const KernelRef& kernel, const char* label
 } // namespace detail
 
 /// Enqueues `kernel` over `work_items` work-items, rounded up to whole groups (kernels test their index). Arguments
-/// are Buffer, BufferView or arithmetic values of the kernel's exact parameter types, in its order. No work-items: no
+/// are Buffer, BufferView, arithmetic values or shared structs of the kernel's exact parameter types, in its order. No work-items: no
 /// launch. Throws ProgramError when it does not compile, DeviceError when the arguments do not fit or it cannot run.
 template <class... Arguments>
 void launch(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,

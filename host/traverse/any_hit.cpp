@@ -12,7 +12,7 @@ void any_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, Buffe
     const auto ray_count = static_cast<std::uint32_t>(rays.size());
     const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
         launch(device, kernel, "any hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
-               tree.area_nodes, tree.area_items, rays, ray_count, slices.length, hits);
+               tree.area_nodes, tree.area_items, rays, ray_count, slices.length, tree.sphere, hits);
     };
     if (tree.bounds != Bounds::aabb)
         run(tree.oriented_nodes, tree.triangles, tree.oriented_top);

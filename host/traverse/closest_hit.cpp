@@ -26,7 +26,7 @@ void trace(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferV
     const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
         launch(device, kernel, "closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
                tree.area_nodes, tree.area_items, tree.first_triangles, instance_count, rays, ray_count, slices.length,
-               hits, statistics);
+               tree.sphere, hits, statistics);
     };
     if (tree.bounds != Bounds::aabb)
         run(tree.oriented_nodes, tree.triangles, tree.oriented_top);

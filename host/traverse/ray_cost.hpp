@@ -4,6 +4,7 @@
 #include "boxwood/topology.hpp"
 #include "shared/aabb.h"
 #include "shared/ray.h"
+#include "shared/scene_sphere.h"
 #include "shared/triangle.h"
 #include "shared/visits.h"
 
@@ -15,6 +16,7 @@ struct MarkedTree {
     BufferView<const Aabb> volumes;         ///< As from aabb_volumes.
     BufferView<const std::uint32_t> leaves; ///< As in TopDownTree.
     BufferView<const Triangle> triangles;   ///< By sorted position.
+    SceneSphere sphere;                     ///< Around all triangles, see scene_sphere.
 };
 
 /// Follows each ray twice: through every box that it meets on its whole way (paper 9.1), and in search of its closest hit,

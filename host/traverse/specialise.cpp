@@ -6,8 +6,19 @@
 #include <limits>
 
 #include "boxwood/error.hpp"
+#include "runtime/words.hpp"
 
 namespace boxwood {
+
+namespace {
+
+constexpr Words<Intersector, 2> intersectors = {
+    {{"watertight", Intersector::watertight}, {"moeller-trumbore", Intersector::moeller_trumbore}}};
+
+} // namespace
+
+std::string_view name(Intersector intersector) { return word_of(intersectors, intersector); }
+Intersector to_intersector(std::string_view word) { return value_of(intersectors, "intersector", word); }
 
 std::uint32_t stack_entries(std::uint64_t needed) {
     constexpr std::uint64_t least = 32;
@@ -32,6 +43,7 @@ KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& op
              {"LEVELS", tree.levels == Levels::two ? "2" : "1"},
              {"FLATTENED", flattened ? "1" : "0"},
              {"AREAS", tree.areas.size() != 0 ? "1" : "0"},
+             {"INTERSECTOR", options.intersector == Intersector::watertight ? "0" : "1"},
              {"STATISTICS", query == Query::closest_with_statistics ? "1" : "0"},
              {"STACK_SIZE", std::to_string(stack_size(tree))},
              {"PORTABLE_LANES", options.portable_lanes ? "1" : "0"}}};

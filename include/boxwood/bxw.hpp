@@ -16,7 +16,7 @@ struct BxwFile {
 };
 
 /// Version that save_bxw writes and the only one that load_bxw reads.
-inline constexpr std::uint32_t bxw_version = 4;
+inline constexpr std::uint32_t bxw_version = 5;
 
 /// Writes scene and tree as a little-endian container (magic, version, section table, checksum per section;
 /// host/io/bxw_format.hpp has the layout), atomically: on failure nothing is left under `file`. Throws InputError when

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "boxwood/material.hpp"
+#include "shared/scene_sphere.h"
 
 namespace boxwood {
 
@@ -75,6 +76,9 @@ struct Scene {
 
 /// Throws InputError(file, element, what) unless the scene keeps every promise made above. O(size).
 void validate(const Scene& scene, const std::string& file);
+
+/// The sphere around the box of all vertices where each instance has them. O(vertices + instances).
+SceneSphere scene_sphere(const Scene& scene);
 
 /// The scene as one mesh in world space with one identity instance, triangles in instance order; instance i's
 /// triangles start at the sum of the triangle counts of the instances before it. Positions are transformed in double

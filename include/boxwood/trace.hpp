@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string_view>
+
 #include "boxwood/tree.hpp"
 #include "shared/ray.h"
 
 namespace boxwood {
 
+/// How a ray is tested against a triangle.
+enum class Intersector {
+    watertight,       ///< No ray passes at an edge or vertex of a closed surface, and answers do not depend on the tree.
+    moeller_trumbore, ///< The test of 1997, faster where triangles are many; neither holds, by roundings.
+};
+
+/// The words used in options, reports and on the command line. to_intersector throws InputError listing them.
+std::string_view name(Intersector intersector);
+Intersector to_intersector(std::string_view word);
+
 /// How traversal kernels are specialised.
 struct TraceOptions {
+    Intersector intersector = Intersector::watertight;
     bool portable_lanes = false; ///< Portable mask reduction in place of the device's own instruction.
 };
 

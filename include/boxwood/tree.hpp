@@ -32,6 +32,7 @@ struct Tree {
     Buffer<std::uint32_t> area_items;
     AreaIndexKind area_index = AreaIndexKind::list;
 
+    SceneSphere sphere{};
     std::uint32_t bottom_depth = 0;
     std::uint32_t top_depth = 0;
 

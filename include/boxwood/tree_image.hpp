@@ -56,6 +56,8 @@ struct TreeImage {
     std::vector<LocalArea> areas;
     AreaIndex area_index; ///< Finds `areas`; empty without any.
 
+    SceneSphere sphere{}; ///< scene_sphere() of the scene.
+
     std::uint32_t bottom_depth = 0; ///< Most nodes on a path from a bottom root to a leaf's parent, over all trees.
     std::uint32_t top_depth = 0;
 };

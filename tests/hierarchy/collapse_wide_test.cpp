@@ -170,17 +170,17 @@ private:
         return range;
     }
 
-    /// First corner and edges of scene triangle `primitive`, zeros for none.
+    /// Corners of scene triangle `primitive`, zeros for none.
     void check_lane(const Triangle4& b, int lane, std::uint32_t primitive) {
-        const float got[] = {b.v0_x[lane],    b.v0_y[lane],    b.v0_z[lane],    b.edge1_x[lane], b.edge1_y[lane],
-                             b.edge1_z[lane], b.edge2_x[lane], b.edge2_y[lane], b.edge2_z[lane]};
+        const float got[] = {b.v0_x[lane],    b.v0_y[lane],    b.v0_z[lane],    b.v1_x[lane], b.v1_y[lane],
+                             b.v1_z[lane], b.v2_x[lane], b.v2_y[lane], b.v2_z[lane]};
         float expected[9] = {};
         if (primitive != BOXWOOD_NONE) {
             const glm::vec3* corner = corners_.data() + 3 * std::size_t(primitive);
             for (int k = 0; k < 3; ++k) {
                 expected[k] = corner[0][k];
-                expected[3 + k] = corner[1][k] - corner[0][k];
-                expected[6 + k] = corner[2][k] - corner[0][k];
+                expected[3 + k] = corner[1][k];
+                expected[6 + k] = corner[2][k];
             }
         }
         if (!std::equal(got, got + 9, expected)) fail("corners of a triangle");

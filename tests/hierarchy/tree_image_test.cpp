@@ -320,10 +320,10 @@ TEST_CASE("a leaf must name each primitive of its mesh once") {
     CHECK(binary([](TreeImage& t) { t.triangles[1].primitive = 37; }) == "triangles[1]");
     CHECK(binary([](TreeImage& t) { t.triangles[1].primitive = 36; }).starts_with("triangles["));
     CHECK(binary([](TreeImage& t) { t.triangles[1].reserved1 = 1; }) == "triangles[1]");
-    CHECK(binary([](TreeImage& t) { t.triangles[1].edge2[2] = infinity; }) == "triangles[1]");
+    CHECK(binary([](TreeImage& t) { t.triangles[1].v2[2] = infinity; }) == "triangles[1]");
     CHECK(wide([](TreeImage& t) { t.blocks[0].primitive[0] = BOXWOOD_NONE; }) == "blocks[0]");
     CHECK(wide([](TreeImage& t) { t.blocks[0].primitive[2] = 0; }) == "blocks[0]"); // behind an unused slot
-    CHECK(wide([](TreeImage& t) { t.blocks[0].edge1_y[3] = 1; }) == "blocks[0]");
+    CHECK(wide([](TreeImage& t) { t.blocks[0].v1_y[3] = 1; }) == "blocks[0]");
     CHECK(wide([](TreeImage& t) { t.blocks[1].v0_z[3] = not_a_number; }) == "blocks[1]");
     CHECK(wide([](TreeImage& t) { std::swap(t.blocks[1].primitive[0], t.blocks[1].primitive[1]); }) == "blocks[1]");
     CHECK(wide([](TreeImage& t) { t.blocks.back().primitive[0] = 37; }) == "blocks[10]");

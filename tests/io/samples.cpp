@@ -116,11 +116,9 @@ std::vector<Item> append_leaves(std::vector<Triangle>& leaves, const std::vector
     std::vector<Item> items;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto& [a, b, c] = triangles[i];
-        const glm::vec3 e = b - a;
-        const glm::vec3 f = c - a;
         items.push_back({empty_box, BOXWOOD_LEAF | static_cast<std::uint32_t>(leaves.size())});
         for (const glm::vec3& corner : triangles[i]) grow(items.back().box, corner);
-        leaves.push_back({{a.x, a.y, a.z}, static_cast<std::uint32_t>(i), {e.x, e.y, e.z}, 0, {f.x, f.y, f.z}, 0});
+        leaves.push_back({{a.x, a.y, a.z}, static_cast<std::uint32_t>(i), {b.x, b.y, b.z}, 0, {c.x, c.y, c.z}, 0});
     }
     return items;
 }
@@ -140,12 +138,12 @@ std::vector<Item> append_leaves(std::vector<Triangle4>& blocks, const std::vecto
         block.v0_x[slot] = a.x;
         block.v0_y[slot] = a.y;
         block.v0_z[slot] = a.z;
-        block.edge1_x[slot] = b.x - a.x;
-        block.edge1_y[slot] = b.y - a.y;
-        block.edge1_z[slot] = b.z - a.z;
-        block.edge2_x[slot] = c.x - a.x;
-        block.edge2_y[slot] = c.y - a.y;
-        block.edge2_z[slot] = c.z - a.z;
+        block.v1_x[slot] = b.x;
+        block.v1_y[slot] = b.y;
+        block.v1_z[slot] = b.z;
+        block.v2_x[slot] = c.x;
+        block.v2_y[slot] = c.y;
+        block.v2_z[slot] = c.z;
         block.primitive[slot] = static_cast<std::uint32_t>(i);
     }
     return items;
@@ -237,6 +235,7 @@ Scene sample_scene() {
 
 TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds) {
     TreeImage tree;
+    tree.sphere = scene_sphere(scene);
     tree.layout = layout;
     tree.levels = levels;
     tree.bounds = bounds;

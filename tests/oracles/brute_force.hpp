@@ -35,7 +35,7 @@ private:
         glm::dvec3 middle;
         double radius;
     };
-    /// Vertices as structure of arrays: v0, edge1, edge2, each x, y, z. Padded with zero-area triangles.
+    /// Vertices as structure of arrays: three corners, each x, y, z. Padded with zero-area triangles.
     struct Soup {
         std::size_t count = 0;
         std::array<std::vector<float>, 9> columns;
@@ -47,10 +47,14 @@ private:
     static Soup make_soup(const std::vector<std::array<glm::vec3, 3>>& triangles);
     void search(const Local& ray, std::uint32_t instance, Hit& best) const;
 
+    SceneSphere sphere_;
     std::vector<Soup> soups_;
     std::vector<std::uint32_t> soup_of_;  ///< Per instance.
     std::vector<InstanceRecord> records_; ///< For two levels.
 };
+
+/// Whether a triangle's vertices are on one line: exactly, for coordinates whose last bits are within 2^-60 of the largest.
+bool is_collinear(const std::array<glm::vec3, 3>& triangle);
 
 /// Where the line of `ray` meets a triangle, in double precision: t, u, v. Nothing when the triangle has no area, lies
 /// edge-on, or is missed. The ray's interval is not looked at.

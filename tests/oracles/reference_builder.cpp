@@ -6,7 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "oracles/brute_force.hpp"
 #include "oracles/reference_obb.hpp"
+#include "oracles/triangle_box.hpp"
 
 namespace boxwood::test {
 
@@ -222,27 +224,30 @@ private:
 };
 
 void store(const std::array<glm::vec3, 3>& c, std::uint32_t primitive, Triangle& out) {
-    const glm::vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
-    out = {{c[0].x, c[0].y, c[0].z}, primitive, {e1.x, e1.y, e1.z}, 0, {e2.x, e2.y, e2.z}, 0};
+    out = {{c[0].x, c[0].y, c[0].z}, primitive, {c[1].x, c[1].y, c[1].z}, 0, {c[2].x, c[2].y, c[2].z}, 0};
 }
 
 void store(const std::array<glm::vec3, 3>& c, std::uint32_t primitive, std::size_t lane, Triangle4& out) {
-    const glm::vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
     out.v0_x[lane] = c[0].x, out.v0_y[lane] = c[0].y, out.v0_z[lane] = c[0].z;
-    out.edge1_x[lane] = e1.x, out.edge1_y[lane] = e1.y, out.edge1_z[lane] = e1.z;
-    out.edge2_x[lane] = e2.x, out.edge2_y[lane] = e2.y, out.edge2_z[lane] = e2.z;
+    out.v1_x[lane] = c[1].x, out.v1_y[lane] = c[1].y, out.v1_z[lane] = c[1].z;
+    out.v2_x[lane] = c[2].x, out.v2_y[lane] = c[2].y, out.v2_z[lane] = c[2].z;
     out.primitive[lane] = primitive;
 }
 
 /// Appends the tree of one mesh to the image and returns its root.
-std::uint32_t add_bottom(TreeImage& image, const std::vector<std::array<glm::vec3, 3>>& triangles, Shape shape) {
+std::uint32_t add_bottom(TreeImage& image, std::vector<std::array<glm::vec3, 3>> triangles, Shape shape) {
     std::vector<Box> boxes(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const glm::vec3& p : triangles[i]) boxes[i].add(p);
+    Corners corners;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto& [a, b, c] = triangles[i];
+        const Aabb box = box_of(a, b, c);
+        boxes[i] = {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+        corners.of.emplace_back(triangles[i].begin(), triangles[i].end());
+        corners.slack = std::max(corners.slack, hit_slack * longest_extent(a, b, c));
+        if (is_collinear(triangles[i])) triangles[i] = {a, a, a};
+    }
     const BinaryTree tree = make_binary(boxes, shape);
     const bool oriented = image.bounds != Bounds::aabb;
-    Corners corners;
-    for (const auto& triangle : triangles) corners.of.emplace_back(triangle.begin(), triangle.end());
     std::size_t root = 0;
     std::uint32_t depth = 0;
     if (image.layout == Layout::binary) {
@@ -272,26 +277,38 @@ glm::dvec3 transform(const glm::mat4& matrix, const glm::vec3& p) {
     return glm::dvec3(glm::dmat4(matrix) * glm::dvec4(p, 1.0));
 }
 
-/// Room for the rounding of the ray's transformation to object space.
-float slack_of(const Box& box) {
-    const glm::vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-    return 0x1p-20f * std::max({reach.x, reach.y, reach.z});
+/// Room for all roundings of a ray that is moved to object space, on any axis: 64 of what terms there are, on the way there and
+/// back, for points within 8 radii of the sphere's center.
+double slack_of(const InstanceRecord& record, const SceneSphere& sphere) {
+    glm::dvec3 object, world;
+    for (int row = 0; row < 3; ++row) {
+        object[row] = std::fabs(double{record.to_object[4 * row + 3]});
+        for (int k = 0; k < 3; ++k)
+            object[row] += std::fabs(double{record.to_object[4 * row + k]}) *
+                           (std::fabs(double{sphere.center[k]}) + 8.0 * double{sphere.radius});
+    }
+    for (int row = 0; row < 3; ++row) {
+        world[row] = 0.0;
+        for (int k = 0; k < 3; ++k) world[row] += std::fabs(double{record.to_world[4 * row + k]}) * object[k];
+    }
+    return 0x1p-18 * std::max({world.x, world.y, world.z});
 }
 
 void add_top(TreeImage& image, const Scene& scene, Shape shape) {
     std::vector<Box> boxes;
     Corners corners;
-    for (const Instance& instance : scene.instances) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
         Box& box = boxes.emplace_back();
         auto& points = corners.of.emplace_back();
         for (const glm::vec3& p : scene.meshes[instance.mesh].positions) {
             points.push_back(transform(instance.transform, p));
             box.add(glm::vec3(points.back()));
         }
-        const float slack = slack_of(box);
-        box.low -= slack;
-        box.high += slack;
-        corners.slack = std::max(corners.slack, static_cast<double>(slack));
+        const double slack = slack_of(image.instances[i], image.sphere);
+        box.low -= static_cast<float>(slack);
+        box.high += static_cast<float>(slack);
+        corners.slack = std::max(corners.slack, slack);
     }
     const BinaryTree tree = make_binary(boxes, shape);
     Emitter emitter(tree, 1, corners, [](const std::vector<std::uint32_t>& leaf) { return leaf[0]; });
@@ -340,6 +357,7 @@ TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Bound
     image.layout = layout;
     image.levels = levels;
     image.bounds = bounds;
+    image.sphere = scene_sphere(scene);
     if (scene.instances.empty()) return image;
     if (levels == Levels::one) {
         std::vector<std::array<glm::vec3, 3>> all;

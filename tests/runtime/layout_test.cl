@@ -11,6 +11,7 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/scene_sphere.h"
 #include "shared/topdown.h"
 #include "shared/triangle.h"
 #include "shared/visits.h"
@@ -36,12 +37,13 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         sizeof(Ray), OFFSET(Ray, origin), OFFSET(Ray, t_min), OFFSET(Ray, direction), OFFSET(Ray, t_max),
         sizeof(Hit), OFFSET(Hit, t), OFFSET(Hit, u), OFFSET(Hit, v), OFFSET(Hit, primitive), OFFSET(Hit, instance),
         sizeof(RayStatistics), OFFSET(RayStatistics, volumes), OFFSET(RayStatistics, primitives), OFFSET(RayStatistics, areas),
-        sizeof(Triangle), OFFSET(Triangle, v0), OFFSET(Triangle, primitive), OFFSET(Triangle, edge1),
-        OFFSET(Triangle, reserved1), OFFSET(Triangle, edge2), OFFSET(Triangle, reserved2),
+        sizeof(Triangle), OFFSET(Triangle, v0), OFFSET(Triangle, primitive), OFFSET(Triangle, v1),
+        OFFSET(Triangle, reserved1), OFFSET(Triangle, v2), OFFSET(Triangle, reserved2),
         sizeof(Triangle4), OFFSET(Triangle4, v0_x), OFFSET(Triangle4, v0_y), OFFSET(Triangle4, v0_z),
-        OFFSET(Triangle4, edge1_x), OFFSET(Triangle4, edge1_y), OFFSET(Triangle4, edge1_z),
-        OFFSET(Triangle4, edge2_x), OFFSET(Triangle4, edge2_y), OFFSET(Triangle4, edge2_z),
+        OFFSET(Triangle4, v1_x), OFFSET(Triangle4, v1_y), OFFSET(Triangle4, v1_z),
+        OFFSET(Triangle4, v2_x), OFFSET(Triangle4, v2_y), OFFSET(Triangle4, v2_z),
         OFFSET(Triangle4, primitive),
+        sizeof(SceneSphere), OFFSET(SceneSphere, center), OFFSET(SceneSphere, radius),
         sizeof(ScreenTriangle), OFFSET(ScreenTriangle, surface), OFFSET(ScreenTriangle, corners),
         OFFSET(ScreenTriangle, instance), OFFSET(ScreenTriangle, nearest), OFFSET(ScreenTriangle, left),
         OFFSET(ScreenTriangle, right), OFFSET(ScreenTriangle, top), OFFSET(ScreenTriangle, bottom),

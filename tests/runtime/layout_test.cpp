@@ -13,6 +13,7 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/scene_sphere.h"
 #include "shared/topdown.h"
 #include "shared/triangle.h"
 #include "shared/visits.h"
@@ -42,12 +43,13 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         sizeof(Ray), offsetof(Ray, origin), offsetof(Ray, t_min), offsetof(Ray, direction), offsetof(Ray, t_max),
         sizeof(Hit), offsetof(Hit, t), offsetof(Hit, u), offsetof(Hit, v), offsetof(Hit, primitive), offsetof(Hit, instance),
         sizeof(RayStatistics), offsetof(RayStatistics, volumes), offsetof(RayStatistics, primitives), offsetof(RayStatistics, areas),
-        sizeof(Triangle), offsetof(Triangle, v0), offsetof(Triangle, primitive), offsetof(Triangle, edge1),
-        offsetof(Triangle, reserved1), offsetof(Triangle, edge2), offsetof(Triangle, reserved2),
+        sizeof(Triangle), offsetof(Triangle, v0), offsetof(Triangle, primitive), offsetof(Triangle, v1),
+        offsetof(Triangle, reserved1), offsetof(Triangle, v2), offsetof(Triangle, reserved2),
         sizeof(Triangle4), offsetof(Triangle4, v0_x), offsetof(Triangle4, v0_y), offsetof(Triangle4, v0_z),
-        offsetof(Triangle4, edge1_x), offsetof(Triangle4, edge1_y), offsetof(Triangle4, edge1_z),
-        offsetof(Triangle4, edge2_x), offsetof(Triangle4, edge2_y), offsetof(Triangle4, edge2_z),
+        offsetof(Triangle4, v1_x), offsetof(Triangle4, v1_y), offsetof(Triangle4, v1_z),
+        offsetof(Triangle4, v2_x), offsetof(Triangle4, v2_y), offsetof(Triangle4, v2_z),
         offsetof(Triangle4, primitive),
+        sizeof(SceneSphere), offsetof(SceneSphere, center), offsetof(SceneSphere, radius),
         sizeof(ScreenTriangle), offsetof(ScreenTriangle, surface), offsetof(ScreenTriangle, corners),
         offsetof(ScreenTriangle, instance), offsetof(ScreenTriangle, nearest), offsetof(ScreenTriangle, left),
         offsetof(ScreenTriangle, right), offsetof(ScreenTriangle, top), offsetof(ScreenTriangle, bottom),

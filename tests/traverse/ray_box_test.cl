@@ -13,7 +13,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_box_test
     const float4 origin = vload4(0, rays[i].origin);
     const float4 direction = vload4(0, rays[i].direction);
     LocalRay ray;
-    make_local_ray(origin.xyz, direction.xyz, &ray);
+    make_local_ray(origin.xyz, direction.xyz, 0, &ray);
     float entry;
     out[i] = ray_box(&ray, &boxes[i], origin.w, fmin(direction.w, FLT_MAX), &entry) ? 1 : 0;
     entries[i] = entry;
@@ -27,7 +27,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_box8_tes
     const float4 origin = vload4(0, rays[i].origin);
     const float4 direction = vload4(0, rays[i].direction);
     LocalRay ray;
-    make_local_ray(origin.xyz, direction.xyz, &ray);
+    make_local_ray(origin.xyz, direction.xyz, 0, &ray);
     float8 entry;
     out[i] = ray_box8(&ray, &nodes[i], origin.w, fmin(direction.w, FLT_MAX), &entry);
     vstore8(entry, i, entries);

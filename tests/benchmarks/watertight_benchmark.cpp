@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of tree, all of
+// which must give the same hits. Runs for as many rays as asked and fails on one miss or one difference.
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "benchmark.hpp"
+#include "boxwood/build.hpp"
+#include "boxwood/error.hpp"
+#include "boxwood/trace.hpp"
+#include "oracles/closed_meshes.hpp"
+
+namespace boxwood::benchmarks {
+namespace {
+
+using test::ClosedScene;
+
+/// One way to build a tree.
+struct Kind {
+    Builder builder;
+    Layout layout;
+    Bounds bounds;
+};
+
+/// An area for `blend`: rays along an axis through all of the scene.
+std::vector<InfluenceArea> areas_of(const Scene& scene) {
+    const SceneSphere sphere = scene_sphere(scene);
+    InfluenceArea area;
+    area.origin = {sphere.center[0], sphere.center[1], sphere.center[2] - sphere.radius};
+    area.direction = {0.0, 0.0, 1.0};
+    area.half_width = area.half_height = sphere.radius;
+    area.far = 2.0 * sphere.radius;
+    return {area};
+}
+
+std::vector<Kind> kinds_of(Levels levels) {
+    std::vector<Kind> kinds;
+    for (const Layout layout : {Layout::wide8, Layout::binary})
+        for (const Builder builder : {Builder::lbvh, Builder::sah, Builder::midpoint, Builder::blend})
+            if (levels == Levels::one || builder != Builder::blend) kinds.push_back({builder, layout, Bounds::aabb});
+    for (const Bounds bounds : all_bounds())
+        if (bounds != Bounds::aabb) kinds.push_back({Builder::lbvh, Layout::binary, bounds});
+    return kinds;
+}
+
+Tree build_kind(Device& device, const Scene& scene, const Kind& kind, Levels levels) {
+    BuildOptions options{.levels = levels, .layout = kind.layout, .builder = kind.builder};
+    options.bounds.kind = kind.bounds;
+    if (kind.builder == Builder::blend) options.areas = areas_of(scene);
+    return build(device, scene, options);
+}
+
+struct Count {
+    std::uint64_t rays = 0, missed = 0, different = 0;
+};
+
+bool same(const Hit& a, const Hit& b) {
+    return a.t == b.t && a.u == b.u && a.v == b.v && a.primitive == b.primitive && a.instance == b.instance;
+}
+
+void check_batch(Device& device, const std::vector<Tree>& trees, const std::vector<Ray>& batch, Count& count) {
+    const Buffer<Ray> rays = upload(device, batch, "rays");
+    const Buffer<Hit> hits = make_buffer<Hit>(device, batch.size(), "hits");
+    const Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, batch.size(), "flags");
+    std::vector<Hit> first;
+    for (const Tree& tree : trees) {
+        closest_hit(device, tree, rays, hits);
+        const std::vector<Hit> found = download(device, hits);
+        if (first.empty()) first = found;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            count.missed += found[i].primitive == BOXWOOD_NONE;
+            count.different += !same(found[i], first[i]);
+        }
+        count.rays += batch.size();
+    }
+    any_hit(device, trees.front(), rays, flags);
+    for (const std::uint32_t flag : download(device, flags)) count.missed += flag == 0;
+    count.rays += batch.size();
+}
+
+/// All kinds of rays through all kinds of trees of one scene, `rays` in all or a few more.
+Count check_scene(Device& device, const ClosedScene& closed, Levels levels, double rays, std::uint64_t seed) {
+    Count count;
+    std::vector<Tree> trees;
+    for (const Kind& kind : kinds_of(levels)) trees.push_back(build_kind(device, closed.scene, kind, levels));
+    const double each = rays / static_cast<double>((trees.size() + 1) * test::all_aims.size());
+    constexpr double most = 1 << 20;
+    for (const test::Aim aim : test::all_aims)
+        for (double done = 0; done < each; done += most) {
+            const auto size = static_cast<std::size_t>(std::min(most, std::max(each - done, 1.0)));
+            check_batch(device, trees, test::rays_from_inside(closed, aim, size, ++seed), count);
+        }
+    return count;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"Counts rays that get out of closed meshes, and trees that disagree"};
+    std::string selector;
+    double rays = 1e7;
+    std::uint64_t seed = 1;
+    app.add_option("--device", selector, "index of a device or a part of its name");
+    app.add_option("--rays", rays, "rays in all, about")->check(CLI::Range(1.0, 1e15));
+    app.add_option("--seed", seed, "of all random numbers");
+    CLI11_PARSE(app, argc, argv);
+
+    Device device(selector);
+    std::printf("device: %s\n%-52s %6s %14s %8s %10s\n", device.info().name.c_str(), "", "levels", "rays", "missed",
+                "different");
+    Count all;
+    const std::vector<test::ClosedKind> scenes = test::closed_kinds();
+    for (const test::ClosedKind& kind : scenes) {
+        const ClosedScene closed = test::make_closed(kind);
+        for (const Levels levels : {Levels::one, Levels::two}) {
+            const Count count =
+                check_scene(device, closed, levels, rays / static_cast<double>(2 * scenes.size()), seed);
+            std::printf("%-52s %6s %14llu %8llu %10llu\n", kind.name.c_str(), std::string(name(levels)).c_str(),
+                        static_cast<unsigned long long>(count.rays), static_cast<unsigned long long>(count.missed),
+                        static_cast<unsigned long long>(count.different));
+            std::fflush(stdout);
+            all.rays += count.rays;
+            all.missed += count.missed;
+            all.different += count.different;
+        }
+    }
+    std::printf("%llu rays: %llu missed, %llu different\n", static_cast<unsigned long long>(all.rays),
+                static_cast<unsigned long long>(all.missed), static_cast<unsigned long long>(all.different));
+    return all.missed + all.different == 0 ? 0 : 1;
+}
+
+} // namespace
+} // namespace boxwood::benchmarks
+
+int main(int argc, char** argv) {
+    return boxwood::benchmarks::guarded("boxwood-benchmark-watertight",
+                                        [&] { return boxwood::benchmarks::run(argc, argv); });
+}
