@@ -8,20 +8,20 @@
 
 /// Object space: how far off, along each axis, a ray may be that traversal moved there, at whatever it hits.
 ///
-/// Let u = 2^-24, M and T be the linear part and the translation of to_object, R_k = |center_k| + 8 radius, which bounds the
-/// coordinate of every origin (far ones are moved: far_origin.h) and of everything in the scene, so that t |d_k| <= 2 R_k. Three fma
-/// move the origin: 3u (|M| R + |T|). The direction: 3u |M| t |d| <= 6u |M| R. The hit is off the ray, or along it, by 8u of
-/// its way, 16u |M| R, and by 17u of the triangle's longest extent, itself at most 2 radii in world space: 5u |M| R. The
-/// matrix is the inverse rounded once, on the way there and back: 2u (|M| R + |T|). In all 32u |M| R + 5u |T|; 40u are taken of both.
+/// Let u = 2^-24, M the linear part of to_object, p the instance's place and r the sphere's radius. Origins are within 8r of its center
+/// c on every axis (far ones are moved: far_origin.h) and everything else within r, so that E_k = 8r + |c_k - p_k| bounds what is
+/// subtracted and t |d_k| <= 9r. The difference and three products move the origin: 4u |M| E. The direction: 3u |M| t |d| <=
+/// 27u |M| r. The hit is off the ray, or along it, by 8u of its way, 72u |M| r, and by 17u of the triangle's longest extent, itself at
+/// most 2r in world space: 34u |M| r. The matrix is the inverse rounded once, on the way back too: 2u |M| E. In all at most
+/// |M| (133r + 6E) u; 24u |M| E are taken.
 inline void object_error(global const InstanceRecord* record, const SceneSphere* sphere, float* error) {
     for (int row = 0; row < 3; ++row) {
-        global const float* m = record->to_object + 4 * row;
-        float sum = fabs(m[3]);
+        float sum = 0.0f;
         for (int k = 0; k < 3; ++k) {
-            const float reach = fma((float)BOXWOOD_NEAR_RADII, sphere->radius, fabs(sphere->center[k]));
-            sum = fma(fabs(m[k]), reach, sum);
+            const float away = fabs(sphere->center[k] - record->to_world[4 * k + 3]);
+            sum = fma(fabs(record->to_object[4 * row + k]), fma((float)BOXWOOD_NEAR_RADII, sphere->radius, away), sum);
         }
-        error[row] = 40.0f * 0x1p-24f * sum;
+        error[row] = 24.0f * 0x1p-24f * sum;
     }
 }
 

@@ -7,7 +7,7 @@ BOXWOOD_SHARED_BEGIN
 
 /// One placed mesh as the device sees it. Matrices are affine, 3 rows of 4, row-major: p' = M[r][0..2] . p + M[r][3].
 typedef struct InstanceRecord {
-    float to_object[12]; ///< World to object; applied to rays without normalising their direction.
+    float to_object[12]; ///< World to object. Rays take its linear part, after the translation of to_world is subtracted.
     float to_world[12]; ///< Object to world.
     uint mesh; ///< Index into Scene::meshes.
     uint root; ///< Root node of the mesh's bottom-level tree.

@@ -78,7 +78,7 @@ INLINE void make_shear(float3 origin, float3 direction, int exponent, Shear* she
 /// reciprocal overflows has a finite, smaller one for entering. Components below 2^-90 of the largest are taken for zero, here and in
 /// the triangle test, so that none is left whose products underflow.
 INLINE void make_local_ray(float3 origin, float3 direction, int exponent, LocalRay* ray) {
-    const float least = power_of_two(max(exponent_of(direction) - 90, -126));
+    const float least = max(fabs(direction.x), max(fabs(direction.y), fabs(direction.z))) * 0x1p-90f;
     ray->direction = select(direction, (float3)(0.0f), fabs(direction) < least);
     const float3 inverse = -1.0f / ray->direction;
     const float3 near_inverse = clamp(inverse * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
@@ -91,14 +91,8 @@ INLINE void make_local_ray(float3 origin, float3 direction, int exponent, LocalR
     make_shear(origin, ray->direction, exponent, &ray->shear);
 }
 
-/// Row `row` of an affine map applied to a point.
-INLINE float map_point(global const float* matrix, uint row, float3 p) {
-    const float4 m = vload4(row, matrix);
-    return fma(m.x, p.x, fma(m.y, p.y, fma(m.z, p.z, m.w)));
-}
-
-/// The same without the translation.
-INLINE float map_direction(global const float* matrix, uint row, float3 d) {
+/// Row `row` of the linear part of an affine map applied to a vector.
+INLINE float map_vector(global const float* matrix, uint row, float3 d) {
     const float4 m = vload4(row, matrix);
     return fma(m.x, d.x, fma(m.y, d.y, m.z * d.z));
 }
@@ -109,13 +103,15 @@ INLINE int growth(global const float* matrix) {
     return exponent_of(max(row0.xyz, max(row1.xyz, row2.xyz)));
 }
 
-/// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space.
+/// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space. The instance's place
+/// is subtracted first, which far from the world's origin keeps the digits that the translation of to_object has lost.
 INLINE void to_object_space(const LocalRay* ray, global const InstanceRecord* instance, LocalRay* local_ray) {
     global const float* m = instance->to_object;
-    const float3 p = ray->origin;
+    global const float* w = instance->to_world;
+    const float3 p = ray->origin - (float3)(w[3], w[7], w[11]);
     const float3 d = ray->direction;
-    make_local_ray((float3)(map_point(m, 0, p), map_point(m, 1, p), map_point(m, 2, p)),
-                   (float3)(map_direction(m, 0, d), map_direction(m, 1, d), map_direction(m, 2, d)), ray->exponent - growth(m),
+    make_local_ray((float3)(map_vector(m, 0, p), map_vector(m, 1, p), map_vector(m, 2, p)),
+                   (float3)(map_vector(m, 0, d), map_vector(m, 1, d), map_vector(m, 2, d)), ray->exponent - growth(m),
                    local_ray);
 }
 

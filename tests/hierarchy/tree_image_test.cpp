@@ -67,6 +67,7 @@ std::pair<Scene, TreeImage> chain(std::uint32_t count) {
         tree.binary_nodes.push_back({{box, box}, {BOXWOOD_LEAF | i, next}, {0, 0}});
     }
     tree.bottom_depth = count;
+    tree.sphere = scene_sphere(scene);
     return {scene, tree};
 }
 

@@ -144,7 +144,7 @@ bool is_collinear(const std::array<glm::vec3, 3>& triangle) {
 
 BruteForce::Local::Local(const glm::vec3& origin, const glm::vec3& direction, int magnification, float first)
     : o(origin), d(direction), t_min(first) {
-    const float small = std::ldexp(1.0f, std::max(power(largest(d)) - 90, -126));
+    const float small = largest(d) * 0x1p-90f;
     for (int k = 0; k < 3; ++k)
         if (std::fabs(d[k]) < small) d[k] = 0.0f;
     const glm::vec3 size = glm::abs(d);
@@ -282,11 +282,12 @@ Hit BruteForce::closest_hit(const Ray& ray) const {
             continue;
         }
         glm::vec3 o, d;
-        const glm::vec3 &p = world.o, &q = world.d;
+        const float* place = records_[instance].to_world;
+        const glm::vec3 p = world.o - glm::vec3(place[3], place[7], place[11]), &q = world.d;
         float growth = 0.0f;
         for (int row = 0; row < 3; ++row) {
             const float* m = &records_[instance].to_object[4 * row];
-            o[row] = std::fma(m[0], p.x, std::fma(m[1], p.y, std::fma(m[2], p.z, m[3])));
+            o[row] = std::fma(m[0], p.x, std::fma(m[1], p.y, m[2] * p.z));
             d[row] = std::fma(m[0], q.x, std::fma(m[1], q.y, m[2] * q.z));
             growth = std::max(growth, largest({m[0], m[1], m[2]}));
         }

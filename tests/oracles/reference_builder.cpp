@@ -277,15 +277,16 @@ glm::dvec3 transform(const glm::mat4& matrix, const glm::vec3& p) {
     return glm::dvec3(glm::dmat4(matrix) * glm::dvec4(p, 1.0));
 }
 
-/// Room for all roundings of a ray that is moved to object space, on any axis: 64 of what terms there are, on the way there and
-/// back, for points within 8 radii of the sphere's center.
+/// Room for all roundings of a ray that is moved to object space, on any axis: 64 of what terms there are, for points within 8
+/// radii of the sphere's center.
 double slack_of(const InstanceRecord& record, const SceneSphere& sphere) {
     glm::dvec3 object, world;
     for (int row = 0; row < 3; ++row) {
-        object[row] = std::fabs(double{record.to_object[4 * row + 3]});
+        object[row] = 0.0;
         for (int k = 0; k < 3; ++k)
-            object[row] += std::fabs(double{record.to_object[4 * row + k]}) *
-                           (std::fabs(double{sphere.center[k]}) + 8.0 * double{sphere.radius});
+            object[row] +=
+                std::fabs(double{record.to_object[4 * row + k]}) *
+                (std::fabs(double{sphere.center[k]} - record.to_world[4 * k + 3]) + 8.0 * double{sphere.radius});
     }
     for (int row = 0; row < 3; ++row) {
         world[row] = 0.0;
@@ -305,7 +306,9 @@ void add_top(TreeImage& image, const Scene& scene, Shape shape) {
             points.push_back(transform(instance.transform, p));
             box.add(glm::vec3(points.back()));
         }
-        const double slack = slack_of(image.instances[i], image.sphere);
+        // The box itself rounds by half a unit in the last place.
+        const glm::vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
+        const double slack = slack_of(image.instances[i], image.sphere) + 0x1p-23 * std::max({reach.x, reach.y, reach.z});
         box.low -= static_cast<float>(slack);
         box.high += static_cast<float>(slack);
         corners.slack = std::max(corners.slack, slack);

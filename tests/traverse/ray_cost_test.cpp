@@ -23,13 +23,14 @@ namespace {
 /// A linear BVH whose subtrees of up to `leaf_size` primitives are leaves, on the device and on the host.
 struct Marked {
     BuiltForest built;
+    SceneSphere sphere;
     std::vector<std::array<glm::vec3, 3>> corners;
     std::vector<std::uint32_t> leaves;
     Buffer<std::uint32_t> device_leaves;
     Buffer<Triangle> triangles;
 
     Marked(const Scene& scene, std::uint32_t leaf_size)
-        : built(build_forest_of(test_device(), scene)), corners(test::corners(scene.meshes[0])),
+        : built(build_forest_of(test_device(), scene)), sphere(scene_sphere(scene)), corners(test::corners(scene.meshes[0])),
           leaves(built.topology.size()) {
         Device& device = test_device();
         const auto count = built.topology.size();
@@ -45,7 +46,7 @@ struct Marked {
         Device& device = test_device();
         const Guarded<RayVisits> all(device, rays.size());
         const Guarded<Hit> all_hits(device, rays.size());
-        ray_visits(device, {built.forest.topology, built.forest.volumes, device_leaves, triangles},
+        ray_visits(device, {built.forest.topology, built.forest.volumes, device_leaves, triangles, sphere},
                    upload(device, rays, "rays"), all.view(), all_hits.view());
         CHECK(all.intact());
         CHECK(all_hits.intact());
@@ -184,7 +185,7 @@ TEST_CASE("ray cost: no primitives, no visits") {
     Topology topology;
     const Guarded<RayVisits> visits(device, 3);
     const Guarded<Hit> hits(device, 3);
-    ray_visits(device, {topology, {}, {}, {}}, upload(device, std::vector<Ray>(3), "rays"), visits.view(), hits.view());
+    ray_visits(device, {topology, {}, {}, {}, {}}, upload(device, std::vector<Ray>(3), "rays"), visits.view(), hits.view());
     for (const RayVisits& each : visits.values()) CHECK(same(each, RayVisits{}));
     for (const Hit& hit : hits.values()) CHECK(hit.primitive == BOXWOOD_NONE);
 }

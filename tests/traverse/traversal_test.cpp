@@ -243,7 +243,7 @@ TEST_CASE("traversal: a tree of aligned volumes costs what the same binary tree 
     node.child[0] &= ~BOXWOOD_ALIGNED;
     store_volume(box_around(random_rows(random, false), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), node.volume[0]);
     std::vector<RayStatistics> statistics;
-    trace(one, {{{0.2f, 0.2f, -1}, 0, {0, 0, 1}, 2}, {{9, 9, -1}, 0, {0, 0, 1}, 2}}, statistics);
+    trace(one, {{{0.2f, 0.2f, -1}, 0, {0, 0, 1}, 2}, {{2, 2, -1}, 0, {0, 0, 1}, 2}}, statistics);
     CHECK(statistics[0].volumes == 1);
     CHECK(statistics[0].primitives == 1);
     CHECK(statistics[1].volumes == 1);
