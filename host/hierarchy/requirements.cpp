@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/requirements.hpp"
 
+#include "boxwood/rounding.hpp"
+#include "scene/element.hpp"
 #include "scene/shading_reasons.hpp"
 
 namespace boxwood {
 
+namespace {
+
+bool shares_meshes(const Scene& scene) { return scene.instanced_triangle_count() > scene.triangle_count(); }
+
+} // namespace
+
 Requirements requirements(const Scene& scene, const BuildOptions& options) {
     Requirements needs;
-    const bool shared = scene.instanced_triangle_count() > scene.triangle_count();
-    needs.two_levels =
-        options.levels == Levels::two || (options.levels == Levels::automatic && shared && options.areas.empty());
+    needs.two_levels = options.levels == Levels::two || (options.levels == Levels::automatic && options.areas.empty() &&
+                                                         (shares_meshes(scene) || worst_rounding(scene)));
     needs.instance_lookup = !needs.two_levels && scene.instances.size() > 1;
     needs.oriented_boxes = options.bounds.kind != Bounds::aabb;
     needs.influence_areas = !options.areas.empty() && options.builder != Builder::blend;
@@ -20,12 +27,12 @@ namespace {
 
 std::string two_levels_because(const Scene& scene, const BuildOptions& options) {
     if (options.levels == Levels::two) return "the options ask for two levels";
+    if (!shares_meshes(scene)) return "one level would move vertices of " + words(*worst_rounding(scene), scene);
     std::vector<std::uint64_t> placed(scene.meshes.size(), 0);
     for (const Instance& instance : scene.instances) ++placed[instance.mesh];
     std::size_t i = 0;
     while (placed[i] < 2) ++i;
-    return "meshes[" + std::to_string(i) + "] \"" + scene.meshes[i].name + "\" is placed " + std::to_string(placed[i]) +
-           " times";
+    return element("meshes", i, scene.meshes[i].name) + " is placed " + std::to_string(placed[i]) + " times";
 }
 
 } // namespace

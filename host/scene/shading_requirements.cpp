@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/element.hpp"
 #include "scene/materials_in_use.hpp"
 
 namespace boxwood {
@@ -70,10 +71,6 @@ public:
 private:
     std::vector<Reason> reasons_;
 };
-
-std::string element(const char* array, std::size_t index, const std::string& name) {
-    return std::string(array) + "[" + std::to_string(index) + "]" + (name.empty() ? "" : " \"" + name + "\"");
-}
 
 Needs needs_of(const Scene& scene) {
     Needs needs;

@@ -88,7 +88,7 @@ bool in_range(const glm::vec3& position) {
 void append_transformed(const std::vector<glm::vec3>& positions, const glm::mat4& transform,
                         std::vector<glm::vec3>& target) {
     const glm::dmat4 exact(transform);
-    for (const glm::vec3& position : positions) target.emplace_back(glm::dvec3(exact * glm::dvec4(position, 1.0)));
+    for (const glm::vec3& position : positions) target.emplace_back(place(exact, position));
 }
 
 glm::mat4 look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {

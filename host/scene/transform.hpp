@@ -33,6 +33,11 @@ std::string_view placement_fault(const glm::mat4& transform, const MeshBounds& b
 /// Whether a position may be a mesh's: finite, within largest_coordinate.
 bool in_range(const glm::vec3& position);
 
+/// A position under an affine transform, in double.
+inline glm::dvec3 place(const glm::dmat4& transform, const glm::vec3& position) {
+    return glm::dvec3(transform * glm::dvec4(position, 1.0));
+}
+
 /// Appends `positions` under `transform` to `target`, computed in double and rounded once.
 void append_transformed(const std::vector<glm::vec3>& positions, const glm::mat4& transform,
                         std::vector<glm::vec3>& target);

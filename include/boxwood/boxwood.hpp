@@ -37,6 +37,7 @@
 #include "boxwood/render.hpp"
 #include "boxwood/render_options.hpp"
 #include "boxwood/requirements.hpp"
+#include "boxwood/rounding.hpp"
 #include "boxwood/scan.hpp"
 #include "boxwood/scatter.hpp"
 #include "boxwood/scene.hpp"

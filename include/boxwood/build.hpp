@@ -31,7 +31,7 @@ bool needs_areas(Builder builder);
 
 /// How to build a tree.
 struct BuildOptions {
-    Levels levels = Levels::automatic; ///< automatic: two when a mesh is placed more than once, else one.
+    Levels levels = Levels::automatic; ///< automatic: by requirements() (boxwood/requirements.hpp).
     Layout layout = Layout::automatic; ///< automatic: binary for oriented boxes, else wide8.
     Builder builder = Builder::lbvh;
     MortonBits morton = MortonBits::bits30; ///< Of lbvh.

@@ -20,7 +20,9 @@ struct Requirements {
 };
 
 /// Derived from scene and options. Levels::automatic takes two levels when some mesh is placed more than once, since
-/// one level would have to store it as often, but one where there are influence areas. O(instances + meshes).
+/// one level would have to store it as often, or when one level would round an instance by more than rounding_limit
+/// (boxwood/rounding.hpp), but one where there are influence areas. As worst_rounding where it comes to that, else
+/// O(instances + meshes).
 Requirements requirements(const Scene& scene, const BuildOptions& options);
 
 /// The words for reports: "two-levels", "instance-lookup", "oriented-boxes", "influence-areas".
