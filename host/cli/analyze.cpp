@@ -214,7 +214,7 @@ void run(const Arguments& arguments) {
     const Input input = load_input(arguments.input, arguments.common.quiet);
     progress.step("building");
     Device device = open_device(arguments.common);
-    const Prepared prepared = prepare(device, input, arguments.choice);
+    const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
     progress.step("analysing");
     const TreeImage built = input.tree ? TreeImage{} : download(device, prepared.tree);
     const TreeImage& image = input.tree ? *input.tree : built;

@@ -45,7 +45,7 @@ void run(const Arguments& arguments) {
     input.tree.reset(); // of a .bxw file: only its scene is wanted
     progress.step("building");
     Device device = open_device(arguments.common);
-    const Prepared prepared = prepare(device, input, arguments.choice);
+    const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
     progress.step("writing " + arguments.output.string());
     const TreeImage image = download(device, prepared.tree);
     save_bxw(arguments.output, input.scene, image);

@@ -48,7 +48,7 @@ void export_boxes(const Arguments& arguments, const Input& input) {
     std::vector<InfluenceRecord> areas;
     if (!input.tree || arguments.choice.given()) {
         Device device = open_device(arguments.common);
-        const Prepared prepared = prepare(device, input, arguments.choice);
+        const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
         built = download(device, prepared.tree);
         areas = influence_records(prepared.options.areas);
     } else {

@@ -8,13 +8,17 @@
 #include "boxwood/bxw.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/rays.hpp"
+#include "boxwood/rounding.hpp"
 
 namespace boxwood::cli {
 
 void print_warnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
     constexpr std::size_t most = 5;
-    for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i)
-        std::cerr << "boxwood: warning: " << file.string() << ": " << warnings[i] << '\n';
+    for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i) {
+        std::string line = warnings[i]; // may name an element of the scene, and that holds anything
+        std::replace(line.begin(), line.end(), '\n', ' ');
+        std::cerr << "boxwood: warning: " << file.string() << ": " << line << '\n';
+    }
     if (warnings.size() > most)
         std::cerr << "boxwood: warning: " << file.string() << ": and " << warnings.size() - most
                   << " more, all in the report\n";
@@ -53,9 +57,7 @@ std::vector<InfluenceArea> areas_of(Device& device, const Input& input, const Bu
     return areas;
 }
 
-} // namespace
-
-Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) {
+Prepared stored_or_built(Device& device, const Input& input, const BuildChoice& choice) {
     if (!input.tree) {
         BuildOptions options = choice.options;
         std::vector<ProbedArea> probed;
@@ -66,7 +68,7 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
         Tree tree = build(device, input.scene, options, &report);
         options.layout = tree.layout;
         options.area_index = tree.area_index;
-        return {std::move(tree), options, std::move(report), std::move(probed)};
+        return {std::move(tree), options, std::move(report), std::move(probed), {}};
     }
     if (choice.given())
         throw UsageError(input.file.string() +
@@ -77,7 +79,25 @@ Prepared prepare(Device& device, const Input& input, const BuildChoice& choice) 
     options.bounds.kind = input.tree->bounds;
     options.area_index = input.tree->area_index.kind;
     options.areas.resize(input.tree->areas.size()); // that there are some is all that is read of them
-    return {upload(device, *input.tree), options, std::nullopt, {}};
+    return {upload(device, *input.tree), options, std::nullopt, {}, {}};
+}
+
+} // namespace
+
+Prepared prepare(Device& device, const Input& input, const BuildChoice& choice, bool quiet) {
+    Prepared prepared = stored_or_built(device, input, choice);
+    prepared.warnings = rounding_warnings(input.scene, prepared.options);
+    if (!quiet) print_warnings(input.file, prepared.warnings);
+    return prepared;
+}
+
+std::vector<std::string> rounding_warnings(const Scene& scene, const BuildOptions& options) {
+    const bool areas = !options.areas.empty();
+    if (options.levels == Levels::two || (options.levels == Levels::automatic && !areas)) return {};
+    const std::optional<Rounding> worst = worst_rounding(scene);
+    if (!worst) return {};
+    return {"one level moves vertices of " + words(*worst, scene) +
+            (areas ? "; build without --areas, which needs one level" : "; build with --levels two")};
 }
 
 } // namespace boxwood::cli

@@ -42,12 +42,13 @@ void run(const Arguments& arguments) {
     input.tree.reset();                               // of a .bxw file: only its scene is wanted
     choose_camera(input, arguments.choice.rays.view); // an unknown name is found before the work
     Device device = open_device(arguments.common);
-    const QualityStudy study = study_quality(device, input, arguments.choice, progress);
+    QualityStudy study = study_quality(device, input, arguments.choice, progress);
     LevelsComparison levels;
     if (compares_levels(arguments, input.scene))
         levels = compare_levels(device, input.scene, arguments.choice, study, progress);
 
-    const Prepared& control = study.kinds[0].prepared;
+    Prepared& control = study.kinds[0].prepared;
+    control.warnings = rounding_warnings(input.scene, control.options);
     Json report = base_report(device, input, control, {"statistics"});
     add_quality(study, levels, report);
     const RayChoice& rays = arguments.choice.rays;
@@ -57,6 +58,7 @@ void run(const Arguments& arguments) {
     save_report(arguments.report, report);
     progress.clear();
     if (!arguments.common.quiet) {
+        print_warnings(arguments.scene, control.warnings);
         std::cout << arguments.scene.string() << ": " << grouped(input.scene.triangle_count()) << " triangles in "
                   << grouped(input.scene.meshes.size()) << " meshes, " << grouped(input.scene.instances.size())
                   << " instances, binary layout, " << (control.tree.levels == Levels::two ? "two levels" : "one level")

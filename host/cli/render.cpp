@@ -257,7 +257,7 @@ void run(const Arguments& arguments) {
     const Surroundings around = surroundings(arguments.environment, needs, options.light.integrator);
     if (!arguments.ao_distance) options.ao_distance = default_ao_distance(input.scene);
     progress.step("building");
-    const Prepared prepared = prepare(device, input, arguments.choice);
+    const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
     Render render(device, input.scene, prepared.tree, around.environment, camera, options);
     if (!arguments.common.quiet) {
         progress.clear();

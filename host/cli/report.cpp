@@ -92,10 +92,12 @@ Json base_report(const Device& device, const Input& input, const Prepared& prepa
     }
     std::vector<std::string> requirement_words = words(requirements(input.scene, prepared.options));
     requirement_words.insert(requirement_words.end(), query.begin(), query.end());
+    Json scene = scene_report(input);
+    for (const std::string& warning : prepared.warnings) scene["warnings"].push_back(warning);
     const std::uint64_t build_peak = prepared.report ? prepared.report->peak_device_bytes : 0;
     return {{"boxwood", BOXWOOD_VERSION},
             {"device", {{"platform", info.platform}, {"name", info.name}, {"driver", info.driver}}},
-            {"scene", scene_report(input)},
+            {"scene", std::move(scene)},
             {"options", std::move(options)},
             {"requirements", std::move(requirement_words)},
             {"passes_ms", passes_report(prepared)},

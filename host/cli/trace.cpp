@@ -124,7 +124,7 @@ void run(const Arguments& arguments) {
     choose_camera(input, arguments.rays.view); // an unknown name is found before the work
     progress.step("building");
     Device device = open_device(arguments.common);
-    const Prepared prepared = prepare(device, input, arguments.choice);
+    const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
     progress.step("making rays");
     const Buffer<Ray> rays = make_rays(device, input, prepared.tree, arguments.rays);
     Result result;
