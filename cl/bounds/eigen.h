@@ -49,19 +49,21 @@ INLINE void order_axes(real* first, real* second, Vector* p, Vector* q) {
     choose3(swapped, &old, q);
 }
 
-/// Eigenvectors of a finite `matrix` as rows of `frame`, by descending eigenvalue; of a zero matrix the identity. With
-/// repeated eigenvalues some orthonormal choice.
+/// Eigenvectors of any finite `matrix` as rows of `frame`, by descending eigenvalue; of a zero matrix the identity. With
+/// repeated eigenvalues some orthonormal choice. The matrix times a power of two has the same ones, to the bit, unless its
+/// entries lose digits by that.
 INLINE void eigenvectors(const Symmetric* matrix, Frame* frame) {
     Symmetric m = *matrix;
     real largest = larger(larger(fabs(m.xx), fabs(m.yy)), fabs(m.zz));
     largest = larger(larger(largest, fabs(m.xy)), larger(fabs(m.xz), fabs(m.yz)));
-    const real scale = inverse_power(power_below(largest));
-    m.xx *= scale;
-    m.yy *= scale;
-    m.zz *= scale;
-    m.xy = without_dust(m.xy * scale);
-    m.xz = without_dust(m.xz * scale);
-    m.yz = without_dust(m.yz * scale);
+    // By two factors, as their product need not be a float.
+    const real nearer = off_the_ends(largest), scale = inverse_power(power_below(nearer * largest));
+    m.xx = nearer * m.xx * scale;
+    m.yy = nearer * m.yy * scale;
+    m.zz = nearer * m.zz * scale;
+    m.xy = without_dust(nearer * m.xy * scale);
+    m.xz = without_dust(nearer * m.xz * scale);
+    m.yz = without_dust(nearer * m.yz * scale);
     identity_frame(frame);
     for (int sweep = 0; sweep < JACOBI_SWEEPS; ++sweep) {
         jacobi_rotate(&m.xx, &m.yy, &m.xy, &m.xz, &m.yz, &frame->a, &frame->b);

@@ -174,14 +174,17 @@ INLINE void turning_axis(const Symmetric* s, const Vector* turn, Vector* axis) {
 /// where to start, a unit quaternion; any will do. Mueller et al. 2016 turn R about the axis of R^T A by an angle that is
 /// right near the end only, and stand still when R is exactly 180 degrees off. Here the angle is the best one about the
 /// axis, and saddles, such as that one, are left about the axis along which they fall off. The matrix is scaled by a
-/// power of two, so that its size does not matter; zero gives the start.
+/// power of two, so that its size does not matter, from denormal numbers to FLT_MAX; zero gives the start.
 INLINE void extract_rotation(const Frame* matrix, Quaternion* q) {
     Frame m = *matrix;
     const real size = larger(largest3(&m.a), larger(largest3(&m.b), largest3(&m.c)));
-    const real scale = inverse_power(power_below(size));
-    scale3(scale, &m.a);
-    scale3(scale, &m.b);
-    scale3(scale, &m.c);
+    const real nearer = off_the_ends(size), scale = inverse_power(power_below(nearer * size));
+    Vector* const columns[3] = {&m.a, &m.b, &m.c};
+    for (int k = 0; k < 3; ++k) {
+        // By two factors, as their product need not be a float.
+        scale3(nearer, columns[k]);
+        scale3(scale, columns[k]);
+    }
     mask moving = AS_INT(scale) == AS_INT(scale);
     for (int step = 0; step < ROTATION_STEPS && ANY(moving); ++step) {
         Frame r;

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "bounds/every_scale.hpp"
 #include "bounds/lanes_of.hpp"
 #include "oracles/jacobi.hpp"
 #include "support.hpp"
@@ -164,6 +165,20 @@ TEST_CASE("eigenvectors: the size of a matrix does not matter, to the bit") {
         CHECK(off >= 0);
         CHECK(off <= frame_bound);
     }
+}
+
+TEST_CASE("eigenvectors: of denormal and of the largest floats as of the same matrix at one") {
+    const std::vector<Matrix> matrices = at_one(sample_matrices(small_sizes() ? 1 : 10));
+    const std::vector<Rows> expected = eigenvectors(matrices);
+    for (const int exponent : end_exponents) {
+        CAPTURE(exponent);
+        CHECK(same_bits(eigenvectors(times_power(matrices, exponent)), expected));
+    }
+    // FLT_MAX itself, in every entry, in some, with either sign.
+    constexpr float one = 0x1.fffffep0f;
+    const std::vector<Matrix> whole{
+        {one, one, one, one, one, one}, {one, -one, one, -one, one, -one}, {one, one / 4, 1, 0, one, -one / 2}};
+    CHECK(same_bits(eigenvectors(times_power(whole, 127)), eigenvectors(whole)));
 }
 
 TEST_CASE("moments: merged one by one and in pairs, near and far from the origin") {

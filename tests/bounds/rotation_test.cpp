@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "bounds/every_scale.hpp"
 #include "bounds/lanes_of.hpp"
 #include "oracles/jacobi.hpp"
 #include "support.hpp"
@@ -261,4 +262,21 @@ TEST_CASE("rotation: the size of a matrix does not matter, to the bit") {
         for (float& value : matrix) value = std::ldexp(value, -140);
     for (const Floats4& q : in_lanes(file, "extract_test", tiny.starts, tiny.matrices))
         CHECK(std::abs(glm::length(to_double(q)) - 1) <= 4 * 0x1p-24);
+}
+
+TEST_CASE("rotation: in denormal matrices and in those of the largest floats as in the same at one") {
+    Extraction cases = extraction_cases(small_sizes() ? 1 : 4);
+    cases.matrices = at_one(cases.matrices);
+    const auto extracted = [&](const std::vector<Floats9>& matrices) {
+        return in_lanes(file, "extract_test", cases.starts, matrices);
+    };
+    const auto expected = extracted(cases.matrices);
+    for (const int exponent : end_exponents) {
+        CAPTURE(exponent);
+        CHECK(same_bits(extracted(times_power(cases.matrices, exponent)), expected));
+    }
+    // FLT_MAX itself.
+    for (Floats9& matrix : cases.matrices)
+        for (float& entry : matrix) entry = std::copysign(0x1.fffffep0f, entry);
+    CHECK(same_bits(extracted(times_power(cases.matrices, 127)), extracted(cases.matrices)));
 }
