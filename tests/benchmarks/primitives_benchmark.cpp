@@ -150,8 +150,11 @@ nlohmann::json Benchmark::scan(std::size_t count) {
     Words result(count);
     const auto in = upload(device_, words, "words");
     const auto out = make_buffer<std::uint32_t>(device_, count, "sums");
+    const auto floats = upload(device_, std::vector<float>(words.begin(), words.end()), "floats");
+    const auto float_sums = make_buffer<float>(device_, count, "sums of floats");
     std::vector<Contender> contenders{
         on_device("boxwood", [&] { exclusive_scan<std::uint32_t>(device_, in, Operator::sum, out); }),
+        on_device("boxwood, floats", [&] { exclusive_scan<float>(device_, floats, Operator::sum, float_sums); }),
         copy_kernel(in, out),
         copy_command(in, out),
         {"std::exclusive_scan", nothing,
