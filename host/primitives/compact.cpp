@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/compact.hpp"
 
-#include "boxwood/scan.hpp"
 #include "primitives/element.hpp"
+#include "primitives/scan.hpp"
 
 namespace boxwood {
 
@@ -17,11 +17,12 @@ void compact(Device& device, BufferView<const T> in, BufferView<const std::uint3
     const KernelRef count_kernel{"primitives/compact.cl", "compact_count", primitives::bits_defines<T>()};
     const KernelRef move_kernel{"primitives/compact.cl", "compact", primitives::bits_defines<T>()};
     const Slices slices = cut(device, in.size());
-    const auto kept = make_scratch<std::uint32_t>(device, slices.slices, "kept elements by slice");
-    const auto before = make_scratch<std::uint32_t>(device, slices.slices, "kept elements before slices");
+    const std::size_t most = most_slices(device, in.size());
+    const auto kept = make_scratch<std::uint32_t>(device, most, "kept elements by slice");
+    const auto before = make_scratch<std::uint32_t>(device, most, "kept elements before slices");
     launch(device, count_kernel, "compact: count", slices.slices, flags, kept, static_cast<cl_uint>(in.size()),
            slices.length, slices.slices);
-    exclusive_scan<std::uint32_t>(device, kept, Operator::sum, before);
+    primitives::exclusive_sums(device, kept.prefix(slices.slices), before.prefix(slices.slices), most);
     launch(device, move_kernel, "compact: move", slices.slices, in, flags, before, kept, out, count, slices.length,
            slices.slices);
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "boxwood/scan.hpp"
 #include "primitives/element.hpp"
+#include "primitives/scan.hpp"
 
 namespace boxwood {
 
@@ -35,10 +35,12 @@ void sort_pass(Device& device, const Pairs<Key>& from, const Pairs<Key>& to, int
     const auto mask = static_cast<cl_uint>(digits - 1);
     // Slices of a few times as many pairs as there are digits: counting and scanning stay cheap beside moving.
     const Slices slices = cut(device, count, 4 * digits);
-    const auto counts = make_scratch<std::uint32_t>(device, digits * slices.slices, "digit counts");
+    const std::size_t most_counts = digits * most_slices(device, count, 4 * digits);
+    const auto scratch = make_scratch<std::uint32_t>(device, most_counts, "digit counts");
+    const BufferView<std::uint32_t> counts = scratch.prefix(digits * slices.slices);
     launch(device, {"primitives/radix_sort.cl", "radix_count", defines}, "radix sort: count", slices.slices, from.keys,
            counts, count, first_bit, mask, slices.length, slices.slices);
-    exclusive_scan<std::uint32_t>(device, counts, Operator::sum, counts);
+    primitives::exclusive_sums(device, counts, counts, most_counts);
     launch(device, {"primitives/radix_sort.cl", "radix_move", defines}, "radix sort: move", slices.slices, from.keys,
            from.values, counts, to.keys, to.values, count, first_bit, mask, slices.length, slices.slices);
 }

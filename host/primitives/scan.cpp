@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/scan.hpp"
 
+#include <string>
+#include <vector>
+
 #include "primitives/element.hpp"
+#include "primitives/scan.hpp"
 
 namespace boxwood {
 
 namespace {
 
+/// What is before each block of 1024, before each block of these, and so on.
+template <class T>
+using Levels = std::vector<Buffer<T>>;
+
+template <class T>
+Levels<T> make_levels(Device& device, std::size_t count) {
+    Levels<T> levels;
+    for (std::size_t blocks = primitives::blocks_of(count); blocks > 1; blocks = primitives::blocks_of(blocks))
+        levels.push_back(make_scratch<T>(device, blocks, "scanned blocks"));
+    return levels;
+}
+
 /// The fold of everything before each block is the exclusive scan of the blocks' folds: one level up, the same again.
 template <class T>
-void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclusive, BufferView<T> out) {
+void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclusive, BufferView<T> out,
+          const Levels<T>& levels, std::size_t level = 0) {
     const std::size_t blocks = primitives::blocks_of(in.size());
-    Buffer<T> before;
+    BufferView<T> before;
     if (blocks > 1) {
-        before = make_scratch<T>(device, blocks, "scanned blocks");
-        primitives::reduce_blocks<T>(device, in, op, before.view());
-        scan<T>(device, before.view(), op, false, before.view());
+        before = levels[level].prefix(blocks);
+        primitives::reduce_blocks<T>(device, in, op, before);
+        scan<T>(device, before, op, false, before, levels, level + 1);
     }
     Defines defines = op;
     defines["INCLUSIVE"] = std::to_string(inclusive ? 1 : 0);
@@ -27,7 +44,8 @@ void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclus
 template <class T>
 void checked_scan(Device& device, BufferView<const T> in, Operator op, bool inclusive, BufferView<T> out) {
     primitives::require(out.size() >= in.size(), "out", "has fewer elements than in");
-    if (in.size() > 0) scan<T>(device, in, primitives::operator_defines<T>(op), inclusive, out);
+    if (in.size() == 0) return;
+    scan<T>(device, in, primitives::operator_defines<T>(op), inclusive, out, make_levels<T>(device, in.size()));
 }
 
 } // namespace
@@ -40,6 +58,13 @@ void exclusive_scan(Device& device, BufferView<const T> in, Operator op, BufferV
 template <class T>
 void inclusive_scan(Device& device, BufferView<const T> in, Operator op, BufferView<T> out) {
     checked_scan(device, in, op, true, out);
+}
+
+void primitives::exclusive_sums(Device& device, BufferView<const std::uint32_t> in, BufferView<std::uint32_t> out,
+                                std::size_t most) {
+    if (in.size() == 0) return;
+    scan<std::uint32_t>(device, in, operator_defines<std::uint32_t>(Operator::sum), false, out,
+                        make_levels<std::uint32_t>(device, most));
 }
 
 template void exclusive_scan(Device&, BufferView<const std::int32_t>, Operator, BufferView<std::int32_t>);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "boxwood/error.hpp"
-#include "boxwood/scan.hpp"
 #include "boxwood/trace.hpp"
+#include "primitives/scan.hpp"
 #include "render/scene_arrays.hpp"
 #include "shared/path.h"
 
@@ -34,10 +34,10 @@ struct Fronts {
     Slices slices;
     Buffer<std::uint32_t> kept, before; ///< One more than slices; the last of `before` is the sum.
 
-    /// For queues of any size: no launch has more slices.
-    explicit Fronts(Device& device)
-        : kept(make_scratch<std::uint32_t>(device, device.tuning().work_items + 1, "kept paths")),
-          before(make_scratch<std::uint32_t>(device, device.tuning().work_items + 1, "kept paths before")) {}
+    /// For queues of up to `size` records.
+    Fronts(Device& device, std::size_t size)
+        : kept(make_scratch<std::uint32_t>(device, most_slices(device, size) + 1, "kept paths")),
+          before(make_scratch<std::uint32_t>(device, most_slices(device, size) + 1, "kept paths before")) {}
 };
 
 /// The programs of one world and its options.
@@ -71,7 +71,7 @@ public:
           const PrimaryHits& primary, SampleLight light)
         : device_(device), world_(world), options_(options), sample_(sample), primary_(primary), light_(light),
           programs_(device, world, options), paths_(device, primary.rays.size()), moved_(device, primary.rays.size()),
-          hits_(make_scratch<Hit>(device, primary.rays.size(), "hits of paths")), fronts_(device) {
+          hits_(make_scratch<Hit>(device, primary.rays.size(), "hits of paths")), fronts_(device, primary.rays.size()) {
         if (!programs_.next_event) return;
         shadows_ = Queue<ShadowLight>(device, primary.rays.size());
         if (!world.appearance.requirements.alpha) {
@@ -126,7 +126,7 @@ private:
 
     /// Surface by surface, with the paths' own slices set aside.
     void add_shadows_through(std::size_t count) {
-        Fronts of_paths = std::exchange(fronts_, Fronts(device_));
+        Fronts of_paths = std::exchange(fronts_, Fronts(device_, count));
         for (std::uint32_t layer = 0; count > 0 && layer <= BOXWOOD_MOST_LAYERS; ++layer) {
             {
                 const Stage stage(device_, "shadow");
@@ -151,8 +151,8 @@ private:
     std::size_t close_gaps(Queue<Record>& queue, Queue<Record>& moved, std::size_t count) {
         const Stage stage(device_, "compact");
         const Slices slices = fronts_.slices;
-        exclusive_scan<std::uint32_t>(device_, fronts_.kept.prefix(slices.slices + 1), Operator::sum,
-                                      fronts_.before.prefix(slices.slices + 1));
+        primitives::exclusive_sums(device_, fronts_.kept.prefix(slices.slices + 1),
+                                   fronts_.before.prefix(slices.slices + 1), fronts_.kept.size());
         const std::size_t kept = download_element(device_, fronts_.before, slices.slices);
         if (kept == 0 || kept == count) return kept;
         launch(device_, {"render/path_queue.cl", "move_kept", {{"RECORD", record_name(queue)}}}, "move kept",

@@ -24,15 +24,23 @@ cl::Kernel& find(Device& device, const KernelRef& kernel) {
     return device.state().kernel(kernel.file, kernel.name, build_options(device, kernel.defines), kernel.source);
 }
 
+/// Of `count` elements in slices of at least `shortest`, more where that is needed for a multiple.
+Slices slices_of(std::size_t count, std::size_t shortest, std::size_t multiple) {
+    const std::size_t length = ((std::min(shortest, count) - 1) / multiple + 1) * multiple;
+    return {static_cast<std::uint32_t>((count - 1) / length + 1), static_cast<std::uint32_t>(length)};
+}
+
 } // namespace
 
 Slices cut(const Device& device, std::size_t count, std::size_t multiple) {
     if (count == 0) return {};
     const Tuning& tuning = device.tuning();
-    std::size_t length =
-        std::min(std::max<std::size_t>((count - 1) / tuning.work_items + 1, tuning.smallest_slice), count);
-    length = ((length - 1) / multiple + 1) * multiple;
-    return {static_cast<std::uint32_t>((count - 1) / length + 1), static_cast<std::uint32_t>(length)};
+    const std::size_t even = (count - 1) / tuning.work_items + 1;
+    return slices_of(count, std::max<std::size_t>(even, tuning.smallest_slice), multiple);
+}
+
+std::size_t most_slices(const Device& device, std::size_t count, std::size_t multiple) {
+    return count == 0 ? 0 : slices_of(count, device.tuning().smallest_slice, multiple).slices;
 }
 
 void compile(Device& device, const KernelRef& kernel) { find(device, kernel); }

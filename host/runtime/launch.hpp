@@ -35,6 +35,10 @@ struct Slices {
 /// so that the work-items that fill up the last group begin behind the end and not, beyond 2^32, at the front. {0, 0} for none.
 Slices cut(const Device& device, std::size_t count, std::size_t multiple = 1);
 
+/// The most slices that cut() can make, however many work-items there are. Scratch for so many does not depend on the number of
+/// compute units, which are threads on a CPU: the same work takes the same memory.
+std::size_t most_slices(const Device& device, std::size_t count, std::size_t multiple = 1);
+
 namespace detail {
 
 struct Argument {

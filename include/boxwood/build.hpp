@@ -62,6 +62,8 @@ struct BuildReport {
     double total_ms = 0.0;  ///< Wall clock of the whole build, uploads included, compilation not.
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
+    /// With scratch. It does not depend on the number of threads, but with top-down builders of fewer than 32,768 primitives for
+    /// each: the parts that they split a node in are shorter then.
     std::uint64_t peak_device_bytes = 0;
     double sah = 0.0;     ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
     double overlap = 0.0; ///< End-point overlap of the bottom level, if asked for (Aila et al. 2013, every node at 1).

@@ -10,7 +10,7 @@
 #include "hierarchy/forest_scene.hpp"
 #include "hierarchy/tree_walker.hpp"
 #include "oracles/wide_cost.hpp"
-#include "support.hpp"
+#include "tuning.hpp"
 
 using namespace boxwood;
 using namespace boxwood::test;
@@ -145,6 +145,39 @@ TEST_CASE("build report: memory is that of this build alone") {
     device.trim();
     build(device, scene_of({random_mesh(100, 1.0f, 0.01f, 7)}), {}, &small);
     CHECK(small.peak_device_bytes < large.peak_device_bytes / 2);
+}
+
+TEST_CASE("build report: memory does not depend on the number of threads") {
+    const std::uint32_t count = small_sizes() ? 3000 : 20000;
+    const Scene single = scene_of({random_mesh(count, 1.0f, 0.01f, 6)});
+    InfluenceArea area;
+    area.half_width = area.half_height = 0.5;
+    const BuildOptions kinds[] = {{},
+                                  {.morton = MortonBits::bits63},
+                                  {.layout = Layout::binary},
+                                  {.bounds = {Bounds::obb_moments}},
+                                  {.bounds = {Bounds::obb_refined}},
+                                  {.areas = {area}}};
+    for (const BuildOptions& options : kinds) {
+        CAPTURE(&options - kinds);
+        for (const Scene& scene : {single, two_level_scene(3.0f)}) {
+            if (scene.instances.size() > 1 && !options.areas.empty()) continue;
+            std::vector<std::uint64_t> reported;
+            check_memory_by_compute_units([&] {
+                BuildReport report;
+                const std::uint64_t held = test_device().held_bytes();
+                build(test_device(), scene, options, &report);
+                reported.push_back(report.peak_device_bytes - held);
+                CHECK(reported.back() == reported.front());
+            });
+        }
+    }
+}
+
+TEST_CASE("build report: memory of a top-down builder does not depend on threads from 32,768 primitives for each") {
+    if (small_sizes()) return;
+    const Scene scene = scene_of({random_mesh(2 * 32768, 1.0f, 0.01f, 8)});
+    check_memory_by_compute_units([&] { build(test_device(), scene, {.builder = Builder::sah}); }, 2);
 }
 
 TEST_CASE("build: what cannot fit is refused before any work, with both numbers") {

@@ -74,3 +74,16 @@ TEST_CASE("compact: refuses what does not fit") {
     CHECK_THROWS_AS(compact<float>(device, in, flags, out.prefix(7), count), InputError);
     CHECK_THROWS_AS(compact<float>(device, in, flags, out, count.prefix(0)), InputError);
 }
+
+TEST_CASE("compact: memory does not depend on the number of threads") {
+    Device& device = test_device();
+    // From so many elements on that the counts of slices take blocks to scan.
+    for (const std::size_t size : {5001u, small_sizes() ? 1u : 1000003u}) {
+        CAPTURE(size);
+        const auto in = upload(device, random_values<float>(size, 13), "in");
+        const auto flags = upload(device, random_values<std::uint32_t>(size, 14), "flags");
+        const auto out = make_buffer<float>(device, size, "out");
+        const auto count = make_buffer<std::uint32_t>(device, 1, "count");
+        check_memory_by_compute_units([&] { compact<float>(device, in, flags, out, count); });
+    }
+}

@@ -121,3 +121,17 @@ TEST_CASE("radix_sort: refuses what does not fit") {
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), 9, 8), InputError);
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), 0, 33), InputError);
 }
+
+TEST_CASE_TEMPLATE("radix sort: memory does not depend on the number of threads", Key, std::uint32_t, std::uint64_t) {
+    Device& device = test_device();
+    // Slices as short as digits allow, and so many keys that their counts take three levels of blocks to scan.
+    for (const std::size_t size : {5001u, 300001u, small_sizes() ? 1u : 6000001u}) {
+        CAPTURE(size);
+        for (const int bits : {2, 8, 30}) {
+            CAPTURE(bits);
+            const auto keys = upload(device, random_values<Key>(size, 12), "keys");
+            const auto values = upload(device, std::vector<std::uint32_t>(size), "values");
+            check_memory_by_compute_units([&] { radix_sort<Key>(device, keys, values, 0, bits); });
+        }
+    }
+}

@@ -172,6 +172,15 @@ TEST_CASE("path: the same bytes for any cut of the work and any order of the pix
     CHECK(!same(take_picture(test_device(), lit, scene.cameras[0], {across, across}, other), whole));
 }
 
+TEST_CASE("path: memory does not depend on the number of threads") {
+    const Scene scene = rich_scene();
+    const LitScene lit(test_device(), scene, default_sky());
+    const std::uint32_t across = small_sizes() ? 4 : 64;
+    check_memory_by_compute_units([&] {
+        take_picture(test_device(), lit, scene.cameras[0], {across, across}, seeded(1, 4));
+    });
+}
+
 TEST_CASE("path: scene and lights scaled by a power of two give the same picture") {
     const Scene scene = rich_scene();
     const std::uint32_t across = small_sizes() ? 2 : 12;

@@ -112,10 +112,12 @@ TEST_CASE("device: slices cover every element once, none is empty") {
                 CHECK(slices.length >= std::min<std::size_t>(tuning.smallest_slice, count));
                 CHECK(slices.length < count + multiple); // none longer than all
                 CHECK(slices.slices <= tuning.work_items);
+                CHECK(slices.slices <= most_slices(device, count, multiple));
                 CHECK(std::size_t(slices.slices) * slices.length >= count);
                 CHECK(std::size_t(slices.slices - 1) * slices.length < count);
             }
         }
         CHECK(cut(device, 0).slices == 0);
+        CHECK(most_slices(device, 0) == 0);
     }
 }
