@@ -30,6 +30,9 @@ inline Box hull(Box p, Box q) {
     return result;
 }
 
+/// The centre, in lanes 0 to 2.
+inline float4 box_centre(Box box) { return 0.5f * box.a + 0.5f * (float4)(box.a.w, box.b, box.a.w); }
+
 inline float3 extent_of(Box box) { return (float3)(box.a.w, box.b) - box.a.xyz; }
 
 #endif

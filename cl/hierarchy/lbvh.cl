@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Hierarchy of linear BVHs from sorted keys: Karras's radix tree ("Maximizing parallelism in the construction of BVHs,
-// octrees, and k-d trees", 2012; dissertation 3.3.3), found bottom-up as by Apetrei ("Fast and simple agglomerative
-// LBVH construction", 2014): a range of positions knows its parent from the keys at its two ends alone.
+// Hierarchy of linear BVHs from the gaps between sorted primitives: Karras's radix tree ("Maximizing parallelism in the
+// construction of BVHs, octrees, and k-d trees", 2012; dissertation 3.3.3), found bottom-up as by Apetrei ("Fast and simple
+// agglomerative LBVH construction", 2014): a range of positions knows its parent from the gaps at its two ends alone.
 //
 // A work-item merges all nodes whose range lies inside its slice in plain order; only nodes across slices meet through
 // the hand-off. So one launch serves a CPU with a few long slices and a GPU with many short ones.
 //
-// KEY        type of a key: uint or ulong
-// FOREST     1: keys hold the tree above CODE_BITS; 0: one tree
-// CODE_BITS  bits of a key below the tree
-// compile: KEY=uint FOREST=0 CODE_BITS=30
-// compile: KEY=ulong FOREST=1 CODE_BITS=30
+// compile:
+#include "hierarchy/gaps.h"
 #include "runtime/handoff.h"
 #include "shared/types.h"
 
-#if !defined(KEY) || !defined(FOREST) || !defined(CODE_BITS)
-#error "define KEY, FOREST and CODE_BITS"
-#endif
-
 typedef struct Forest {
-    global const KEY* keys;
+    global const gap_t* gaps;
     global uint2* children;
     global uint* parents;
     global uint* far_ends;
@@ -35,20 +28,8 @@ typedef struct Range {
     uint split;
 } Range;
 
-#define NO_GAP 0xffffffffu
-
-/// How far apart positions i and i + 1 are: the highest bit in which their keys differ or, below all of those, in which
-/// the positions of equal keys differ. NO_GAP where no node of a tree spans them: between trees and at the ends. The
-/// gaps at both ends of a node of the radix tree never tie, but for a root's.
-inline uint gap_after(const Forest* f, uint i) {
-    if (i + 1 == 0 || i + 1 == f->count) return NO_GAP; // i + 1 == 0: before the first position
-    const KEY difference = f->keys[i] ^ f->keys[i + 1];
-#if FOREST
-    if (difference >> CODE_BITS) return NO_GAP;
-#endif
-    const uint key_length = (uint)(8 * sizeof(KEY)) - (uint)clz(difference);
-    return difference ? 32 + key_length : 32 - clz(i ^ (i + 1));
-}
+/// The gap after position i, NO_GAP also for i = -1. The gaps at both ends of a node never tie, but for a root's.
+inline uint gap_after(const Forest* f, uint i) { return i + 1 == 0 ? NO_GAP : f->gaps[i]; }
 
 /// Writes the node, now that its side and so its index are known.
 inline void write_node(const Forest* f, Range node, bool left) {
@@ -89,14 +70,15 @@ inline void climb(const Forest* f, Range node) {
 }
 
 /// Nodes of one slice of sorted positions.
-/// Before: arrivals are 0. After all work-items: children, parents and far_ends of every node are written.
+/// Before: gaps[] are those after every position, arrivals are 0. After all work-items: children, parents and far_ends of
+/// every node are written.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void lbvh(global const KEY* keys, global uint2* children, global uint* parents, global uint* far_ends,
+void lbvh(global const gap_t* gaps, global uint2* children, global uint* parents, global uint* far_ends,
           global uint* outer_ends, global handoff_t* arrivals, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);
-    const Forest forest = {keys, children, parents, far_ends, outer_ends, arrivals, count};
+    const Forest forest = {gaps, children, parents, far_ends, outer_ends, arrivals, count};
     const Forest* f = &forest;
 
     // Finished left children wait in position order: one ends where the next begins, from `waiting` up to the

@@ -11,7 +11,6 @@
 #include "bounds/box.h"
 #include "primitives/segments.h"
 
-
 #if !defined(KEY) || !defined(AXIS_BITS) || !defined(FOREST)
 #error "define KEY, AXIS_BITS and FOREST"
 #endif
@@ -52,9 +51,8 @@ inline Grid grid_of(global const Aabb* bounds) {
 }
 
 inline KEY code(Box box, Grid grid) {
-    const float4 center = 0.5f * box.a + 0.5f * (float4)(box.a.w, box.b, box.a.w);
     // Halves of subnormal numbers round, so a centre may lie below the corner.
-    const float4 place = clamp((center - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
+    const float4 place = clamp((box_centre(box) - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
 #if AXIS_BITS <= 10
     const uint4 cells = spread(convert_uint4(place));
 #else

@@ -3,11 +3,12 @@
 
 #include <utility>
 
-#include "boxwood/lbvh.hpp"
 #include "boxwood/radix_sort.hpp"
 #include "boxwood/reduce.hpp"
 #include "boxwood/segmented_reduce.hpp"
 #include "boxwood/volumes.hpp"
+#include "hierarchy/lbvh.hpp"
+#include "hierarchy/morton_runs.hpp"
 #include "hierarchy/topdown.hpp"
 
 namespace boxwood {
@@ -39,7 +40,9 @@ Forest build_with_keys(Device& device, BufferView<const Aabb> boxes, Buffer<std:
     }
     {
         const Stage hierarchy = named(device, stage, "hierarchy");
-        forest.topology = lbvh<Key>(device, keys, format, std::move(order), std::move(offsets));
+        const Buffer<Gap> gaps = key_gaps<Key>(device, keys, format, offsets.size() - 1);
+        part_long_runs<Key>(device, boxes, keys, format, offsets, order, gaps);
+        forest.topology = radix_trees(device, gaps, std::move(order), std::move(offsets));
     }
     const Stage volumes = named(device, stage, "volumes");
     forest.volumes = aabb_volumes(device, forest.topology, boxes);

@@ -45,12 +45,15 @@ Span span_of(const HostTopology& topology, std::uint32_t node) {
     return {std::min(node, other), std::max(node, other)};
 }
 
-HostTopology reference_topology(const std::vector<std::uint64_t>& keys, std::vector<std::uint32_t> order,
-                                std::vector<std::uint32_t> offsets) {
-    const auto count = static_cast<std::uint32_t>(keys.size());
+namespace {
+
+/// From the roots down; split_of(first, last) is the last position of the left part.
+template <class SplitOf>
+HostTopology build_down(const SplitOf& split_of, std::vector<std::uint32_t> order, std::vector<std::uint32_t> offsets) {
+    const auto count = static_cast<std::uint32_t>(order.size());
     HostTopology result{std::move(offsets), std::move(order), {}, {}, {}};
     result.children.assign(count, cl_uint2{{BOXWOOD_NONE, BOXWOOD_NONE}});
-    result.parents.assign(2 * keys.size(), BOXWOOD_NONE);
+    result.parents.assign(std::size_t{2} * count, BOXWOOD_NONE);
     for (std::uint32_t i = 0; i < count; ++i) result.far_ends.push_back(i);
     std::vector<Pending> pending;
     for (std::uint32_t tree = 0; tree < result.trees(); ++tree) {
@@ -63,7 +66,7 @@ HostTopology reference_topology(const std::vector<std::uint64_t>& keys, std::vec
                 result.parents[count + node.first] = node.parent;
                 continue;
             }
-            const std::uint32_t split = split_of(keys, node.first, node.last);
+            const std::uint32_t split = split_of(node.first, node.last);
             const std::uint32_t left = split == node.first ? count + split : split;
             const std::uint32_t right = split + 1 == node.last ? count + node.last : split + 1;
             result.children[node.index] = cl_uint2{{left, right}};
@@ -74,6 +77,22 @@ HostTopology reference_topology(const std::vector<std::uint64_t>& keys, std::vec
         }
     }
     return result;
+}
+
+} // namespace
+
+HostTopology reference_topology(const std::vector<std::uint64_t>& keys, std::vector<std::uint32_t> order,
+                                std::vector<std::uint32_t> offsets) {
+    return build_down([&](std::uint32_t first, std::uint32_t last) { return split_of(keys, first, last); },
+                      std::move(order), std::move(offsets));
+}
+
+HostTopology reference_topology_of_gaps(const std::vector<std::uint64_t>& gaps, std::vector<std::uint32_t> order,
+                                        std::vector<std::uint32_t> offsets) {
+    const auto largest = [&](std::uint32_t first, std::uint32_t last) {
+        return static_cast<std::uint32_t>(std::max_element(gaps.begin() + first, gaps.begin() + last) - gaps.begin());
+    };
+    return build_down(largest, std::move(order), std::move(offsets));
 }
 
 std::string difference(const HostTopology& a, const HostTopology& b) {

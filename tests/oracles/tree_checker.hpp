@@ -38,6 +38,10 @@ Span span_of(const HostTopology& topology, std::uint32_t node);
 HostTopology reference_topology(const std::vector<std::uint64_t>& keys, std::vector<std::uint32_t> order,
                                 std::vector<std::uint32_t> offsets);
 
+/// The same from the gaps after sorted positions: a range is parted after the position with the largest gap.
+HostTopology reference_topology_of_gaps(const std::vector<std::uint64_t>& gaps, std::vector<std::uint32_t> order,
+                                        std::vector<std::uint32_t> offsets);
+
 /// The first node in which two topologies differ, in words; "" when they are equal.
 std::string difference(const HostTopology& a, const HostTopology& b);
 
