@@ -23,7 +23,8 @@ struct Forest {
 };
 
 /// Builds one linear BVH per range [offsets[t], offsets[t + 1]) of `boxes`, all in the same launches (dissertation 3.3,
-/// 3.6.1). No range is empty. With a `stage` all launches count under it; without, each under its own.
+/// 3.6.1), long runs of equal codes by codes of their own. No range is empty. With a `stage` all launches count under it;
+/// without, each under its own.
 Forest build_forest(Device& device, BufferView<const Aabb> boxes, const std::vector<std::uint32_t>& offsets,
                     MortonBits morton, const std::string& stage = "");
 

@@ -16,7 +16,7 @@ namespace boxwood {
 
 /// What makes the topology of a tree.
 enum class Builder {
-    lbvh,     ///< Sorted Morton codes: fast.
+    lbvh,     ///< Sorted Morton codes, long runs of equal ones by codes within their bounds: fast.
     sah,      ///< Top-down by the surface area heuristic: trees that are faster to traverse.
     midpoint, ///< Top-down, by the middle of the primitives' centres along the longest axis.
     pah,      ///< Top-down by the projected area heuristic: for rays that follow influence areas.
@@ -78,7 +78,8 @@ struct BuildReport {
 /// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
 /// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, for areas that are
 /// not valid or beside two levels or oriented boxes, and for pah and blend without areas. O(n) work in the number of primitives
-/// but for the sort's passes, the levels of a top-down builder and exact extents (dissertation 3.3, 3.5, 3.6).
+/// but for the sort's passes, the rounds of codes for long runs, the levels of a top-down builder and exact extents
+/// (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
 
 } // namespace boxwood

@@ -56,7 +56,8 @@ constexpr double cell = 0x1p-10;
 Boxes clustered(Random& random, std::uint32_t scale) {
     Boxes b;
     b.add_cluster(random, glm::dvec3(0.0), 1.0, 40 * scale);
-    for (std::uint32_t i = 0; i < long_run - 1; ++i) b.add(glm::dvec3(5, 5, 5) * cell + glm::dvec3(0.5 * cell * (i % 2)));
+    for (std::uint32_t i = 0; i < long_run - 1; ++i)
+        b.add(glm::dvec3(5, 5, 5) * cell + glm::dvec3(0.5 * cell * (i % 2)));
     b.add_cluster(random, glm::dvec3(7, 300, 90) * cell, 0.5 * cell, long_run);
     b.add_cluster(random, glm::dvec3(8, 300, 90) * cell, 0.25 * cell, 30 * scale);
     b.close_tree();

@@ -57,7 +57,9 @@ Mesh on_ground(std::uint32_t triangles) {
     Random random(3);
     Mesh mesh = ball(triangles);
     const auto side = static_cast<std::uint32_t>(std::sqrt(0.5f * static_cast<float>(triangles)));
-    const auto at = [&](std::uint32_t i) { return 2000.0f * static_cast<float>(i) / static_cast<float>(side) - 1000.0f; };
+    const auto at = [&](std::uint32_t i) {
+        return 2000.0f * static_cast<float>(i) / static_cast<float>(side) - 1000.0f;
+    };
     for (std::uint32_t i = 0; i < side; ++i) {
         for (std::uint32_t k = 0; k < side; ++k) {
             add_triangle(mesh, {at(i), -1, at(k)}, {at(i), -1, at(k + 1)}, {at(i + 1), -1, at(k)});
@@ -154,13 +156,9 @@ TEST_CASE("scales: a stray triangle far from a ball") {
         check_tests(std::to_string(distance), single(with_stray(scaled_down(20000), distance)));
 }
 
-TEST_CASE("scales: an object on a ground plane") {
-    check_tests("ground", single(on_ground(scaled_down(20000))));
-}
+TEST_CASE("scales: an object on a ground plane") { check_tests("ground", single(on_ground(scaled_down(20000)))); }
 
-TEST_CASE("scales: centres that no bits part") {
-    check_tests("coincident", single(coincident(scaled_down(2000))));
-}
+TEST_CASE("scales: centres that no bits part") { check_tests("coincident", single(coincident(scaled_down(2000)))); }
 
 TEST_CASE("scales: instances close together, and one far away") {
     for (const float distance : {1e3f, 1e6f}) check_tests(std::to_string(distance), crowd(scaled_down(5000), distance));
@@ -172,7 +170,8 @@ TEST_CASE("scales: instances in one place are built in balance; rays must test t
     for (Instance& instance : scene.instances) instance.transform = glm::mat4(1.0f);
     BuildReport report;
     build(test_device(), scene, {.layout = Layout::binary}, &report);
-    const std::uint32_t one_ball = build(test_device(), single(scene.meshes[0]), {.layout = Layout::binary}).bottom_depth;
+    const std::uint32_t one_ball =
+        build(test_device(), single(scene.meshes[0]), {.layout = Layout::binary}).bottom_depth;
     CHECK(report.max_depth <= one_ball + 14); // 2^13 > 5000
     scene.instances.resize(100);
     check_tests("one place", scene);
