@@ -31,6 +31,9 @@ Json kind_report(const QualityStudy& study, const KindResult& kind) {
     for (const char* key : {"volumes_per_ray", "primitives_per_ray", "mrays_per_s"}) json[key] = bounce[key];
     json["primary"] = rays_report(kind.primary, study.primary_rays);
     json["bounce"] = bounce;
+    json["near"] = {{"rays", study.near_rays},
+                    {"volumes_per_ray", kind.near.volumes_per_ray},
+                    {"primitives_per_ray", kind.near.primitives_per_ray}};
     for (const char* pass : quality_passes) json["passes_ms"][pass] = kind.pass_ms(pass);
     json["fit_ratio"] = study.aabb_volumes_ms > 0.0 ? kind.pass_ms("volumes") / study.aabb_volumes_ms : 0.0;
     return json;

@@ -21,6 +21,7 @@ struct LevelsComparison {
 ///                     "sah", "end_point_overlap", "max_depth", "nodes", "peak_device_bytes",
 ///                     "volumes_per_ray", "primitives_per_ray", "mrays_per_s",          of bounce rays, as in "bounce"
 ///                     "primary": {"rays", "volumes_per_ray", "primitives_per_ray", "mrays_per_s"}, "bounce": {...},
+///                     "near": {"rays", "volumes_per_ray", "primitives_per_ray"},      that leave random triangles
 ///                     "passes_ms": {"bounds", ..., "aabb_volumes", "volumes", ..., "total"}, "fit_ratio"}}
 ///     "levels": {"one": {KEY: {"all": {...}, "bottom": {...}, "top": {...}}}, "two": {...}}
 ///

@@ -88,7 +88,7 @@ std::vector<KindResult> kinds_of(const QualityChoice& choice) {
     return kinds;
 }
 
-std::size_t study_steps(std::size_t kinds) { return kinds + quality_builds + 2 * (1 + quality_launches); }
+std::size_t study_steps(std::size_t kinds) { return kinds + quality_builds + 2 * (1 + quality_launches) + 1; }
 
 QualityStudy study_quality(Device& device, const Input& input, const QualityChoice& choice, Progress& progress) {
     QualityStudy study;
@@ -115,6 +115,11 @@ QualityStudy study_quality(Device& device, const Input& input, const QualityChoi
     const Buffer<Ray> bounce = make_rays(device, input, control, rays);
     study.bounce_rays = bounce.size();
     trace_kinds(device, study.kinds, bounce, &KindResult::bounce, progress);
+    rays.kind = "near";
+    const Buffer<Ray> near = make_rays(device, input, control, rays);
+    study.near_rays = near.size();
+    progress.step("counting");
+    for (KindResult& kind : study.kinds) kind.near = count_work(device, kind.prepared.tree, near);
     return study;
 }
 

@@ -29,6 +29,7 @@ struct KindResult {
     Prepared prepared;
     RayCost primary;
     RayCost bounce;
+    RayWork near; ///< What the surface area heuristic does not see: rays that start where most triangles are.
     std::map<std::string, std::vector<double>> passes; ///< Milliseconds by pass, per build.
 
     double pass_ms(const std::string& pass) const;
@@ -43,6 +44,7 @@ struct QualityStudy {
     std::vector<KindResult> kinds; ///< The first is aabb, the control.
     std::size_t primary_rays = 0;
     std::size_t bounce_rays = 0;
+    std::size_t near_rays = 0;
     double aabb_volumes_ms = 0.0; ///< Median over all builds of all kinds, all of which run that pass.
 };
 

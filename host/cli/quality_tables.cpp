@@ -26,14 +26,16 @@ std::string percent(const KindResult& kind, double fraction) {
 void print_boxes(const QualityStudy& study) {
     const BuildReport& control = *study.kinds[0].prepared.report;
     Table table;
-    table.add({"kind", "volume", "/aabb", "area", "/aabb", "OBB smaller, %", "SAH cost", "end-point overlap"});
+    table.add({"kind", "volume", "/aabb", "area", "/aabb", "OBB smaller, %", "SAH cost", "near tests/ray",
+               "end-point overlap"});
     for (const KindResult& kind : study.kinds) {
         const BuildReport& report = *kind.prepared.report;
         table.add({kind.key, sum(report.all.sum_volume), fixed(ratio(report.all.sum_volume, control.all.sum_volume), 4),
                    sum(report.all.sum_area), fixed(ratio(report.all.sum_area, control.all.sum_area), 4),
-                   percent(kind, report.all.obb_smaller_fraction), fixed(report.sah, 2), fixed(report.overlap, 3)});
+                   percent(kind, report.all.obb_smaller_fraction), fixed(report.sah, 2),
+                   fixed(kind.near.volumes_per_ray + kind.near.primitives_per_ray, 2), fixed(report.overlap, 3)});
     }
-    table.print("Boxes: sums over all nodes, in scene units");
+    table.print("Boxes: sums over all nodes, in scene units; tests of rays that leave random triangles");
 }
 
 void print_levels_apart(const QualityStudy& study) {

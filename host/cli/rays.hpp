@@ -13,7 +13,7 @@ namespace boxwood::cli {
 
 /// Which rays to trace.
 struct RayChoice {
-    std::string kind = "primary"; ///< primary, diffuse or shadow.
+    std::string kind = "primary"; ///< primary, diffuse, shadow or near.
     View view;
     std::uint64_t seed = 1;
     Resolution resolution;
@@ -22,8 +22,9 @@ struct RayChoice {
 /// Those of the view, --resolution and --seed.
 void add_ray_options(CLI::App& command, RayChoice& choice);
 
-/// Camera rays, or those that leave their hits; rays that a miss would leave empty are left out, as they would flatter the
-/// rate. They do not depend on the tree, as hits do not.
+/// Camera rays, those that leave their hits, or as many that leave random triangles as diffuse rays do, wherever the camera
+/// looks; rays that a miss would leave empty are left out, as they would flatter the rate. They do not depend on the tree, as
+/// hits do not.
 Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, const RayChoice& choice);
 
 /// What rays cost on average.

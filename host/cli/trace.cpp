@@ -85,7 +85,7 @@ void add_to_report(const Arguments& arguments, const Input& input, const Result&
     options["rays"] = arguments.rays.kind;
     options["resolution"] = {arguments.rays.resolution.width, arguments.rays.resolution.height};
     options["camera"] = choose_camera(input, arguments.rays.view).name;
-    if (arguments.rays.kind == "diffuse") options["seed"] = arguments.rays.seed;
+    if (arguments.rays.kind == "diffuse" || arguments.rays.kind == "near") options["seed"] = arguments.rays.seed;
     if (arguments.rays.kind == "shadow") {
         const glm::vec3 light = default_light(input.scene);
         options["light"] = {light.x, light.y, light.z};
@@ -155,10 +155,12 @@ Command add_trace(CLI::App& tool) {
     CLI::App* app = tool.add_subcommand("trace", "Trace rays through a tree and measure it");
     const auto arguments = std::make_shared<Arguments>();
     app->add_option("FILE", arguments->input, "glTF 2.0 scene, or .bxw file with its tree")->required()->type_name("");
-    app->add_option("--rays", arguments->rays.kind,
-                    "primary: closest hits of camera rays (default); diffuse: closest hits of rays that leave those "
-                    "hits; shadow: any hit between those hits and a light in the scene's bounding box")
-        ->check(CLI::IsMember({"primary", "diffuse", "shadow"}));
+    app->add_option(
+           "--rays", arguments->rays.kind,
+           "primary: closest hits of camera rays (default); diffuse: closest hits of rays that leave those "
+           "hits; shadow: any hit between those hits and a light in the scene's bounding box; near: closest hits of as "
+           "many rays that leave random triangles of the scene")
+        ->check(CLI::IsMember({"primary", "diffuse", "shadow", "near"}));
     add_ray_options(*app, arguments->rays);
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");

@@ -66,6 +66,9 @@ TEST_CASE("quality: every kind has every figure, in JSON and in the tables") {
         CHECK(json["top"]["sum_volume"] == 0.0);
         CHECK(json["primary"]["rays"] == 512);
         CHECK(json["volumes_per_ray"] == json["bounce"]["volumes_per_ray"]);
+        CHECK(json["near"]["rays"] == 512); // each leaves a triangle
+        CHECK(json["near"]["volumes_per_ray"] > 0.0);
+        CHECK(json["near"]["primitives_per_ray"] > 0.0);
         for (const std::string pass : {"bounds", "morton", "sort", "hierarchy", "aabb_volumes", "collapse", "total"}) {
             CAPTURE(pass);
             CHECK(json["passes_ms"][pass] > 0.0);
@@ -127,6 +130,7 @@ TEST_CASE("quality: an empty scene, and wrong usage") {
     const Json empty = quality(tool, "empty.gltf");
     CHECK(empty["kinds"]["obb-points"]["volume_ratio"] == 1.0);
     CHECK(empty["kinds"]["obb-points"]["bounce"]["rays"] == 0);
+    CHECK(empty["kinds"]["obb-points"]["near"]["rays"] == 0);
     const Run unknown = tool.run("quality empty.gltf --bounds obb-points,sphere");
     CHECK(unknown.code == 2);
     CHECK(unknown.err.find("obb-quaternion") != std::string::npos);

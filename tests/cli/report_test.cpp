@@ -153,7 +153,7 @@ TEST_CASE("report: a scene and its .bxw file give the same hits and the same pic
         CAPTURE(options);
         tool.succeed("build forest.glb -o forest.bxw " + options);
         int kind = 0;
-        for (const std::string rays : {"primary", "diffuse", "shadow"}) {
+        for (const std::string rays : {"primary", "diffuse", "shadow", "near"}) {
             CAPTURE(rays);
             const std::string trace = " --resolution 64x64 --seed 5 --rays " + rays;
             tool.succeed("trace forest.glb --report a.json " + options + trace);
@@ -172,6 +172,21 @@ TEST_CASE("report: a scene and its .bxw file give the same hits and the same pic
         CHECK(tool.contents("a.exr").starts_with("\x76\x2f\x31\x01"));
         CHECK(tool.contents("a.png").starts_with("\x89PNG"));
     }
+}
+
+TEST_CASE("report: near rays leave the scene's triangles wherever the camera looks") {
+    const Tool tool;
+    make_forest(tool);
+    const std::string trace = "trace forest.glb --resolution 40x30 --rays near --report ";
+    tool.succeed(trace + "a.json");
+    tool.succeed(trace + "b.json --eye 1000,1000,1000 --target 2000,1000,1000");
+    tool.succeed(trace + "c.json --seed 2");
+    const Json a = report(tool, "a.json"), b = report(tool, "b.json"), c = report(tool, "c.json");
+    CHECK(a["trace"]["rays"] == 1200);
+    CHECK(a["trace"]["checksum"] == b["trace"]["checksum"]);
+    CHECK(a["trace"]["nodes_per_ray"] == b["trace"]["nodes_per_ray"]);
+    CHECK(a["trace"]["checksum"] != c["trace"]["checksum"]);
+    CHECK(c["options"]["seed"] == 2);
 }
 
 TEST_CASE("report: an empty scene builds, traces and renders") {
