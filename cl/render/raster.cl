@@ -43,8 +43,10 @@ INLINE void draw_pixel(global const ScreenTriangle* triangle, global const Insta
     const LocalRay world_ray = local_ray;
     to_object_space(&world_ray, place, &local_ray);
 #endif
+    Shear shear;
     Crossing crossing;
-    if (!ray_triangle(&local_ray, &triangle->surface, t_min, t_max, &crossing)) return;
+    make_shear(&local_ray, &shear);
+    if (!ray_triangle(&local_ray, &shear, &triangle->surface, t_min, t_max, &crossing)) return;
     const float t = caller_distance(ray, &units, crossing.t);
     if (!(t < hit->t)) return;
     hit->t = t;

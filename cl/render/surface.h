@@ -222,6 +222,19 @@ INLINE void bound_way(const Triangles* triangles, Vector* there, Vector* back) {
 #endif
 }
 
+/// A bound of the longest extent on every axis, in world space.
+INLINE void bound_extent(const Triangles* triangles, Vector* extent) {
+    const Vector *p = &triangles->edge1, *q = &triangles->edge2;
+    const Vector sums = {fabs(p->x) + fabs(q->x), fabs(p->y) + fabs(q->y), fabs(p->z) + fabs(q->z)};
+    const real longest = largest3(&sums);
+    const Vector isotropic = {longest, longest, longest};
+#if TRANSFORMS
+    bound_rows(triangles->to_world, &isotropic, extent);
+#else
+    *extent = isotropic;
+#endif
+}
+
 /// Normals of the triangles in object space, by the order of the vertices; of another length, zero without area.
 INLINE void object_normal(const Triangles* triangles, Vector* normal) {
     Vector edge1 = triangles->edge1, edge2 = triangles->edge2;
@@ -237,16 +250,18 @@ INLINE void object_normal(const Triangles* triangles, Vector* normal) {
 ///     5 u W    the point from two barycentric products and two sums (edges are at most twice `largest`),
 ///     4 u W    its transform,  1 u W  the sum with the offset,
 ///     5 u B    transform of the origin by the rounded inverse,
-///     2 u W    its difference to the first vertex,
-///     6 u e    the triple product of a well-shaped triangle with edges e, e <= 2 W,
-///     8 u W    vertices and edges rounded after flattening,
-/// together 32 u W + 5 u B. Slivers pass this: their triple product loses digits in proportion to how thin they are.
-/// Scales with the scene.
+///     8 u W    vertices rounded after flattening,
+///    17 u D    the triangle test (traverse/ray_triangle.h), D being the triangle's longest extent, however thin it is.
+/// 32 u W + 5 u B + 20 u D are taken, by which the point leaves the padded box of the triangle too (bounds/triangle_box.h: 18 u D
+/// and 2 u W), so that a new ray does not test what it has just left. Scales with the scene.
 INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) {
     Vector there, back;
     bound_way(triangles, &there, &back);
     scale3((real)(5.0f), &back);
     add_scaled3((real)(32.0f), &there, &back);
+    Vector extent;
+    bound_extent(triangles, &extent);
+    add_scaled3((real)(20.0f), &extent, &back);
     return 0x1p-24f * reach3(normal, &back);
 }
 

@@ -27,11 +27,6 @@ INLINE TwoFloats add_scaled(TwoFloats a, float b, float c) {
     return two_sum(sum.high, a.low + (sum.low + fma(b, c, -product)));
 }
 
-INLINE bool is_far(float3 origin, const SceneSphere* sphere) {
-    const float3 from_center = fabs(origin - (float3)(sphere->center[0], sphere->center[1], sphere->center[2]));
-    return fmax(from_center.x, fmax(from_center.y, from_center.z)) > BOXWOOD_NEAR_RADII * sphere->radius;
-}
-
 /// Moves the origin along `direction`, whose largest component is from 1 to 2, to two radii or more before the sphere's center,
 /// and sets *distance to how far that was. False when the ray misses the sphere or leaves it behind.
 ///
@@ -39,25 +34,28 @@ INLINE bool is_far(float3 origin, const SceneSphere* sphere) {
 /// of the step (u = 2^-24), so a few steps suffice from anywhere. Position and distance are sums of two floats, whose roundings are
 /// 2^-48 of a step: where it matters the moved origin is the exact point of the ray rounded once, off by u of its own
 /// coordinates, as an origin given there would be.
-static bool move_origin(const SceneSphere* sphere, float3 direction, float3* origin, TwoFloats* distance) {
+static __attribute__((noinline)) bool move_origin(SceneSphere sphere, float3 direction, float3* origin,
+                                                  TwoFloats* distance) {
     TwoFloats x = {origin->x, 0.0f}, y = {origin->y, 0.0f}, z = {origin->z, 0.0f};
     const float square = fma(direction.x, direction.x, fma(direction.y, direction.y, direction.z * direction.z));
     distance->high = 0.0f;
     distance->low = 0.0f;
     for (int i = 0; i < 16; ++i) {
-        const float3 to_center = (float3)(sphere->center[0] - x.high, sphere->center[1] - y.high, sphere->center[2] - z.high);
+        const float3 to_center = (float3)(sphere.center[0] - x.high, sphere.center[1] - y.high, sphere.center[2] - z.high);
         const float along =
             fma(to_center.x, direction.x, fma(to_center.y, direction.y, to_center.z * direction.z)) / square;
-        const float step = along - 2.0f * sphere->radius;
+        const float step = along - 2.0f * sphere.radius;
         if (i == 0 && !(step >= 0.0f)) return false;
-        if (fabs(step) <= 0.25f * sphere->radius) break;
+        if (fabs(step) <= 0.25f * sphere.radius) break;
         x = add_scaled(x, step, direction.x);
         y = add_scaled(y, step, direction.y);
         z = add_scaled(z, step, direction.z);
         *distance = add_scaled(*distance, step, 1.0f);
     }
     *origin = (float3)(x.high, y.high, z.high);
-    return !is_far(*origin, sphere);
+    const float reach = BOXWOOD_NEAR_RADII * sphere.radius;
+    return fabs(x.high - sphere.center[0]) <= reach && fabs(y.high - sphere.center[1]) <= reach &&
+           fabs(z.high - sphere.center[2]) <= reach;
 }
 
 #endif

@@ -10,12 +10,12 @@
 typedef Triangle4 leaf_t;
 typedef float4 real_t;
 /// Coordinate `axis` of vertex `corner`, of each triangle of `leaf`. Blocks are 160 bytes in a buffer aligned to more than 16.
-#define COORDINATE(corner, axis) (((global const float4*)leaf->v0_x)[3 * (corner) + (axis)])
+#define COORDINATE(corner, axis) (((global const float4*)leaf->v0_x + (axis))[3 * (corner)])
 #define HOLDING(mask) lanes4(mask)
 #elif LAYOUT == 2
 typedef Triangle leaf_t;
 typedef float real_t;
-#define COORDINATE(corner, axis) (leaf->v0[4 * (corner) + (axis)])
+#define COORDINATE(corner, axis) ((leaf->v0 + (axis))[4 * (corner)])
 #define HOLDING(mask) ((uint)(mask))
 #else
 #error "define LAYOUT (2 or 8)"

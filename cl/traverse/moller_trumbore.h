@@ -7,10 +7,21 @@
 #include "traverse/leaf.h"
 #include "traverse/local_ray.h"
 
+/// Nothing is worked out beforehand.
+typedef struct Shear {
+    int none;
+} Shear;
+
+INLINE void make_shear(const LocalRay* ray, Shear* shear) {
+    (void)ray;
+    shear->none = 0;
+}
+
 /// As ray_triangle of ray_triangle.h. Triangles whose two edges are parallel or zero are never hit: the two products in each
 /// component of the normal are then equal and rounded alike, so the normal is exactly zero, and so is the determinant.
-INLINE uint ray_triangle(const LocalRay* ray, global const leaf_t* leaf, float t_min, float t_max,
+INLINE uint ray_triangle(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, float t_min, float t_max,
                          Crossing* crossing) {
+    (void)shear;
     const real_t v0_x = COORDINATE(0, 0), v0_y = COORDINATE(0, 1), v0_z = COORDINATE(0, 2);
     const real_t edge1_x = COORDINATE(1, 0) - v0_x, edge1_y = COORDINATE(1, 1) - v0_y, edge1_z = COORDINATE(1, 2) - v0_z;
     const real_t edge2_x = COORDINATE(2, 0) - v0_x, edge2_y = COORDINATE(2, 1) - v0_y, edge2_z = COORDINATE(2, 2) - v0_z;

@@ -38,16 +38,15 @@ INLINE bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, fl
 INLINE uint ray_box8(const LocalRay* ray, global const Wide8Node* node, float t_min, float t_max, float8* entry) {
     // Rows of eight floats: min_x, max_x, min_y, max_y, min_z, max_z. Aligned, as buffers are to 128 bytes at least and
     // nodes have 256: vload8 would not know, and PoCL makes two loads and a shuffle of it.
-    global const float8* rows = (global const float8*)node->min_x;
-    const uint near_x = ray->direction.x < 0.0f ? 1 : 0;
-    const uint near_y = ray->direction.y < 0.0f ? 3 : 2;
-    const uint near_z = ray->direction.z < 0.0f ? 5 : 4;
-    const float8 entry_x = ENTRY(rows[near_x], x);
-    const float8 entry_y = ENTRY(rows[near_y], y);
-    const float8 entry_z = ENTRY(rows[near_z], z);
-    const float8 exit_x = EXIT(rows[near_x ^ 1], x);
-    const float8 exit_y = EXIT(rows[near_y ^ 1], y);
-    const float8 exit_z = EXIT(rows[near_z ^ 1], z);
+    global const char* rows = (global const char*)node->min_x;
+#define ROW(bytes) (*(global const float8*)(rows + (bytes)))
+    const float8 entry_x = ENTRY(ROW(ray->near_x), x);
+    const float8 entry_y = ENTRY(ROW(ray->near_y), y);
+    const float8 entry_z = ENTRY(ROW(ray->near_z), z);
+    const float8 exit_x = EXIT(ROW(ray->near_x ^ 32), x);
+    const float8 exit_y = EXIT(ROW(ray->near_y ^ 32), y);
+    const float8 exit_z = EXIT(ROW(ray->near_z ^ 32), z);
+#undef ROW
     float8 first = (float8)(t_min);
     first = GREATER(entry_x, first);
     first = GREATER(entry_y, first);

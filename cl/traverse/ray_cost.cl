@@ -77,12 +77,14 @@ INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node,
 
 INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, Walk* walk, entry_t* stack, RayVisits* visits) {
     float entry;
+    Shear shear;
+    make_shear(ray, &shear);
     uint node = ray_box(ray, &tree->volumes[root], walk->t_min, walk->t_max, &entry) ? root : BOXWOOD_NONE;
     while (node != BOXWOOD_NONE) {
         uint first, last;
         if (is_leaf(tree, node, &first, &last)) {
             visits->primitives_to_hit += last - first + 1;
-            for (uint i = first; i <= last; ++i) visit_leaf(ray, &tree->triangles[i], 0, walk);
+            for (uint i = first; i <= last; ++i) visit_leaf(ray, &shear, &tree->triangles[i], 0, walk);
             node = next_reference(walk, stack, 0);
         } else {
             visits->nodes_to_hit += 1;

@@ -22,16 +22,30 @@ INLINE uint next_reference(Walk* walk, const entry_t* stack, uint bottom) {
     return BOXWOOD_NONE;
 }
 
-/// Everything below node `reference`. BOXWOOD_NONE has the leaf bit, so the inner loop ends where nothing is met.
+/// From `reference` on to the next leaf, or BOXWOOD_NONE. That has the leaf bit, so the inner loop ends where nothing is met.
+INLINE uint next_leaf(const LocalRay* ray, const Arrays* arrays, uint reference, Walk* walk, entry_t* stack, uint bottom) {
+    while (reference != BOXWOOD_NONE) {
+        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, arrays, reference, walk, stack);
+        if (reference != BOXWOOD_NONE) return reference;
+        reference = next_reference(walk, stack, bottom);
+    }
+    return BOXWOOD_NONE;
+}
+
+/// Everything below node `reference`.
 INLINE void traverse_bottom(const LocalRay* ray, const Arrays* arrays, uint reference, uint instance, Walk* walk,
                             entry_t* stack) {
     global const leaf_t* leaves = (global const leaf_t*)arrays->leaves;
     const uint bottom = walk->top;
+    // Apart from the loop, as many rays meet no leaf, and what triangles need of the ray takes as long as some nodes.
+    reference = next_leaf(ray, arrays, reference, walk, stack, bottom);
+    if (reference == BOXWOOD_NONE) return;
+    Shear shear;
+    make_shear(ray, &shear);
     do {
-        while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, arrays, reference, walk, stack);
-        if (reference != BOXWOOD_NONE) visit_leaf(ray, &leaves[reference & ~BOXWOOD_LEAF], instance, walk);
+        visit_leaf(ray, &shear, &leaves[reference & ~BOXWOOD_LEAF], instance, walk);
         if (is_settled(walk)) return;
-        reference = next_reference(walk, stack, bottom);
+        reference = next_leaf(ray, arrays, next_reference(walk, stack, bottom), walk, stack, bottom);
     } while (reference != BOXWOOD_NONE);
 }
 
@@ -80,7 +94,7 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 INLINE void traverse_areas(const LocalRay* ray, const Units* units, const Areas* areas, const Arrays* arrays, Walk* walk,
                            entry_t* stack) {
     const float t_max = walk->t_max;
-    const float length = power_of_two(units->direction);
+    const float length = units->length;
     float exit = 0.0f;
     uint area = BOXWOOD_NONE;
     if (units->moved.high == 0.0f) {

@@ -3,6 +3,8 @@
 #ifndef BOXWOOD_TRAVERSE_WALK_H
 #define BOXWOOD_TRAVERSE_WALK_H
 #include "traverse/config.h"
+#include "traverse/leaf.h"
+#include "traverse/local_ray.h"
 #if INTERSECTOR == 0
 #include "traverse/ray_triangle.h"
 #else
@@ -44,7 +46,7 @@ typedef struct Walk {
 } Walk;
 
 /// Tests a leaf's triangles and keeps the best hit: the smallest t, then the lowest (instance, primitive).
-INLINE void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint instance, Walk* walk) {
+INLINE void visit_leaf(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, uint instance, Walk* walk) {
 #if STATISTICS
 #if LAYOUT == 8
     const int4 used = (vload4(0, leaf->primitive) != BOXWOOD_NONE) & 1;
@@ -59,7 +61,7 @@ INLINE void visit_leaf(const LocalRay* ray, global const leaf_t* leaf, uint inst
 #else
     const float t_min = walk->t_min;
 #endif
-    uint hits = ray_triangle(ray, leaf, t_min, walk->t_max, &crossing);
+    uint hits = ray_triangle(ray, shear, leaf, t_min, walk->t_max, &crossing);
 #if ANY_HIT
     if (hits != 0) walk->primitive = 0;
 #elif LAYOUT == 8

@@ -7,6 +7,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/material.hpp"
+#include "cli/rays.hpp"
 
 namespace boxwood::cli {
 
@@ -93,6 +94,7 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
               "Direct light is sampled by its lights, by the surface's reflection (bsdf), or by both (mis, default)");
     add_words(command, "--hemisphere", options.hemisphere, to_hemisphere,
               "Diffuse directions by cosine (default) or uniform");
+    add_intersector(command, options.trace);
     add_words(command, "--filter", options.filter, to_filter,
               "Texture filter: anisotropic (default), trilinear or nearest");
 }

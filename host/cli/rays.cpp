@@ -82,11 +82,21 @@ Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, cons
     return without_null_rays(device, secondary);
 }
 
-RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays) {
+void add_intersector(CLI::App& command, TraceOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--intersector", [&options](const std::string& word) { options.intersector = to_intersector(word); },
+            "Ray against triangle: watertight (default), or moeller-trumbore, by which rays pass at shared edges and "
+            "answers may depend on the tree")
+        ->check(CLI::IsMember({"watertight", "moeller-trumbore"}))
+        ->type_name("NAME");
+}
+
+RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options) {
     if (rays.size() == 0) return {};
     const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "ray statistics");
-    closest_hit(device, tree, rays, hits, statistics);
+    closest_hit(device, tree, rays, hits, statistics, options);
     RayWork work;
     std::uint64_t volumes = 0, primitives = 0;
     for (const RayStatistics& each : download(device, statistics)) {

@@ -22,6 +22,9 @@ struct RayChoice {
 /// Those of the view, --resolution and --seed.
 void add_ray_options(CLI::App& command, RayChoice& choice);
 
+/// --intersector.
+void add_intersector(CLI::App& command, TraceOptions& options);
+
 /// Camera rays, those that leave their hits, or as many that leave random triangles as diffuse rays do, wherever the camera
 /// looks; rays that a miss would leave empty are left out, as they would flatter the rate. They do not depend on the tree, as
 /// hits do not.
@@ -36,7 +39,7 @@ struct RayWork {
 };
 
 /// By a program of its own, so that counting costs a timed one nothing. Zeros for no rays.
-RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays);
+RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options = {});
 
 /// 0 for no time.
 double mrays_per_s(std::size_t rays, double ms);

@@ -100,6 +100,7 @@ Json light_report(const RenderOptions& options, const Surroundings& around) {
                    {"sampler", name(light.sampler)},
                    {"strategy", name(light.strategy)},
                    {"hemisphere", name(light.hemisphere)},
+                   {"intersector", name(light.trace.intersector)},
                    {"filter", name(light.filter)},
                    {"spp", light.samples},
                    {"depth", light.depth},

@@ -25,6 +25,7 @@ struct Arguments {
     std::filesystem::path input;
     std::filesystem::path report;
     RayChoice rays;
+    TraceOptions options;
     BuildChoice choice;
 };
 
@@ -57,10 +58,11 @@ double median_ms(Device& device, Progress& progress, const Launch& launch_rays) 
     return median(times);
 }
 
-Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, Progress& progress) {
+Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
+                     Progress& progress) {
     const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     Result result;
-    result.median_ms = median_ms(device, progress, [&] { closest_hit(device, tree, rays, hits); });
+    result.median_ms = median_ms(device, progress, [&] { closest_hit(device, tree, rays, hits, options); });
     const std::vector<Hit> answers = download(device, hits);
     result.hits = static_cast<std::uint64_t>(
         std::count_if(answers.begin(), answers.end(), [](const Hit& hit) { return hit.primitive != BOXWOOD_NONE; }));
@@ -68,10 +70,11 @@ Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, 
     return result;
 }
 
-Result trace_any(Device& device, const Tree& tree, const Buffer<Ray>& rays, Progress& progress) {
+Result trace_any(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
+                 Progress& progress) {
     const Buffer<std::uint32_t> hits = make_buffer<std::uint32_t>(device, rays.size(), "hits");
     Result result;
-    result.median_ms = median_ms(device, progress, [&] { any_hit(device, tree, rays, hits); });
+    result.median_ms = median_ms(device, progress, [&] { any_hit(device, tree, rays, hits, options); });
     const std::vector<std::uint32_t> answers = download(device, hits);
     result.hits = static_cast<std::uint64_t>(std::count(answers.begin(), answers.end(), 1u));
     result.checksum = checksum(answers);
@@ -84,6 +87,7 @@ void add_to_report(const Arguments& arguments, const Input& input, const Result&
     Json& options = report["options"];
     options["rays"] = arguments.rays.kind;
     options["resolution"] = {arguments.rays.resolution.width, arguments.rays.resolution.height};
+    options["intersector"] = name(arguments.options.intersector);
     options["camera"] = choose_camera(input, arguments.rays.view).name;
     if (arguments.rays.kind == "diffuse" || arguments.rays.kind == "near") options["seed"] = arguments.rays.seed;
     if (arguments.rays.kind == "shadow") {
@@ -130,14 +134,14 @@ void run(const Arguments& arguments) {
     Result result;
     {
         const Stage stage(device, "trace");
-        result = arguments.rays.kind == "shadow" ? trace_any(device, prepared.tree, rays, progress)
-                                                 : trace_closest(device, prepared.tree, rays, progress);
+        result = arguments.rays.kind == "shadow" ? trace_any(device, prepared.tree, rays, arguments.options, progress)
+                                                 : trace_closest(device, prepared.tree, rays, arguments.options, progress);
     }
     progress.step("counting");
     {
         const Stage stage(device, "statistics");
         result.rays = rays.size();
-        result.work = count_work(device, prepared.tree, rays);
+        result.work = count_work(device, prepared.tree, rays, arguments.options);
     }
     Json report = base_report(device, input, prepared, {"statistics"});
     if (!prepared.options.areas.empty() || !prepared.probed.empty())
@@ -162,6 +166,7 @@ Command add_trace(CLI::App& tool) {
            "many rays that leave random triangles of the scene")
         ->check(CLI::IsMember({"primary", "diffuse", "shadow", "near"}));
     add_ray_options(*app, arguments->rays);
+    add_intersector(*app, arguments->options);
     add_build_options(*app, arguments->choice);
     app->add_option("--report", arguments->report, "JSON report to write");
     add_common(*app, arguments->common);

@@ -97,6 +97,7 @@ void add_attributes(const RenderOptions& options, const Camera& camera, const st
     attributes["sampler"] = std::string(name(light.sampler));
     attributes["strategy"] = std::string(name(light.strategy));
     attributes["hemisphere"] = std::string(name(light.hemisphere));
+    attributes["intersector"] = std::string(name(light.trace.intersector));
     attributes["filter"] = std::string(name(light.filter));
     attributes["seed"] = std::to_string(light.seed); // 64 bits
     attributes["samples"] = static_cast<std::int32_t>(samples);

@@ -76,11 +76,13 @@ inline Point cross(const Plain& ray, float ax, float ay, float az, float bx, flo
     const float sum = u + v + w;
     const bool front = bool(int(u >= 0) & int(v >= 0) & int(w >= 0));
     const bool back = bool(int(u <= 0) & int(v <= 0) & int(w <= 0));
-    const bool inside = bool((int(front) | int(back)) & int(std::fabs(sum) >= 0x1p-80f));
-    const float weighted = __builtin_fmaf(v, (z1 - z0) * ray.scale, w * ((z2 - z0) * ray.scale)) / sum;
-    const float near = least(least(z0, z1), z2) * ray.scale, far = most(most(z0, z1), z2) * ray.scale;
-    const float depth = least(most(__builtin_fmaf(z0, ray.scale, weighted), near), far);
-    return {inside ? depth / ray.depth : std::numeric_limits<float>::infinity(), v / sum, w / sum};
+    const bool inside = bool((int(front) | int(back)) & int(std::fabs(sum) >= 0x1p-60f));
+    const float d0 = z0 * ray.scale, d1 = z1 * ray.scale, d2 = z2 * ray.scale;
+    const float end = least(least(d0, d1), d2) * sum, start = most(most(d0, d1), d2) * sum;
+    const float weighted = __builtin_fmaf(d0, sum, __builtin_fmaf(v, d1 - d0, w * (d2 - d0)));
+    const float within = least(most(weighted, least(end, start)), most(end, start));
+    const float inverse = 1.0f / sum;
+    return {inside ? within / (sum * ray.depth) : std::numeric_limits<float>::infinity(), v * inverse, w * inverse};
 }
 
 /// Whether no part of the ray up to `limit` comes near the ball: within one and a half times its radius and 2^-12 of its
@@ -144,9 +146,6 @@ bool is_collinear(const std::array<glm::vec3, 3>& triangle) {
 
 BruteForce::Local::Local(const glm::vec3& origin, const glm::vec3& direction, int magnification, float first)
     : o(origin), d(direction), t_min(first) {
-    const float small = largest(d) * 0x1p-90f;
-    for (int k = 0; k < 3; ++k)
-        if (std::fabs(d[k]) < small) d[k] = 0.0f;
     const glm::vec3 size = glm::abs(d);
     const std::size_t z = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
     axis = {(z + 1) % 3, (z + 2) % 3, z};
@@ -256,23 +255,23 @@ Hit BruteForce::closest_hit(const Ray& ray) const {
         valid = valid && std::isfinite(ray.origin[axis]) && std::isfinite(ray.direction[axis]);
     if (!valid || (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0)) return miss;
 
-    const int size = sphere_.radius < 0x1p-126f ? -127 : std::ilogb(sphere_.radius), unit = std::clamp(size, -60, 60);
+    const int size = sphere_.radius < 0x1p-126f ? -127 : std::ilogb(sphere_.radius);
     glm::vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
     glm::vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
-    const int length = power(largest(direction)), scale = length - unit;
-    direction *= std::ldexp(1.0f, -std::min(length, 126));
+    const int length = power(largest(direction)), unit = std::clamp(std::clamp(size, -60, 60), length - 126, length + 126);
+    const int scale = length - unit;
     float t_min = std::ldexp(std::fabs(ray.t_min), scale);
     float t_max = std::min(std::ldexp(std::min(ray.t_max, std::numeric_limits<float>::max()), scale),
                            std::numeric_limits<float>::max());
     Pair way{0, 0};
     if (is_outside(origin, sphere_)) {
-        if (!approach(origin, direction, sphere_, way)) return miss;
+        if (!approach(origin, direction * std::ldexp(1.0f, -std::min(length, 126)), sphere_, way)) return miss;
         way.high = std::ldexp(way.high, -unit), way.low = std::ldexp(way.low, -unit);
         t_min = std::max((t_min - way.high) - way.low, 0.0f);
         t_max = (t_max - way.high) - way.low;
         if (!(t_max >= 0.0f)) return miss;
     }
-    direction *= std::ldexp(1.0f, unit);
+    direction *= std::ldexp(1.0f, -scale);
     Hit best = miss;
     best.t = t_max;
     const Local world(origin, direction, 30 - size, t_min);

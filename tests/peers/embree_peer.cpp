@@ -63,10 +63,11 @@ EmbreePeer::~EmbreePeer() {
     rtcReleaseDevice(device_);
 }
 
-double EmbreePeer::build(const Mesh& mesh, RTCBuildQuality quality) {
+double EmbreePeer::build(const Mesh& mesh, RTCBuildQuality quality, bool robust) {
     if (scene_) rtcReleaseScene(scene_);
     scene_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene_, quality);
+    rtcSetSceneFlags(scene_, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(geometry, quality);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),

@@ -23,7 +23,8 @@ public:
 
     /// Builds a new tree over `mesh` with all of Embree's threads, in place of the last; returns the milliseconds that
     /// rtcCommitScene took.
-    double build(const Mesh& mesh, RTCBuildQuality quality);
+    /// `robust` asks for RTC_SCENE_FLAG_ROBUST.
+    double build(const Mesh& mesh, RTCBuildQuality quality, bool robust);
 
     /// rtcIntersect1 for each ray, on one std::thread per core; returns milliseconds. An interval [t_min, t_max] here.
     double closest_hit(std::span<const Ray> rays, std::span<Hit> hits) const;

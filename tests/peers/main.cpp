@@ -43,9 +43,17 @@ struct Match {
     Builder builder;
     RTCBuildQuality quality;
     const char* suffix; ///< Of the names in the report.
+    bool robust = false;
 };
-constexpr Match matches[] = {{Builder::lbvh, RTC_BUILD_QUALITY_LOW, ""},
-                             {Builder::sah, RTC_BUILD_QUALITY_MEDIUM, "_sah"}};
+std::vector<Match> matches_of(bool robust) {
+    std::vector<Match> matches{{Builder::lbvh, RTC_BUILD_QUALITY_LOW, ""},
+                               {Builder::sah, RTC_BUILD_QUALITY_MEDIUM, "_sah"}};
+    if (robust) {
+        matches.push_back({Builder::lbvh, RTC_BUILD_QUALITY_LOW, "_robust", true});
+        matches.push_back({Builder::sah, RTC_BUILD_QUALITY_MEDIUM, "_sah_robust", true});
+    }
+    return matches;
+}
 
 BuildOptions options_of(const Match& match) {
     return {.levels = Levels::one, .layout = Layout::wide8, .builder = match.builder};
@@ -59,10 +67,10 @@ void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, const M
     BuildReport built;
     const auto build_ours = [&] { build(device, flat, options_of(match), &built); };
     build_ours(); // compiles
-    peer.build(flat.meshes[0], match.quality);
+    peer.build(flat.meshes[0], match.quality, match.robust);
     for (int run = 0; run < runs; ++run) {
         settle();
-        theirs.push_back(peer.build(flat.meshes[0], match.quality));
+        theirs.push_back(peer.build(flat.meshes[0], match.quality, match.robust));
         settle();
         build_ours();
         ready.push_back(built.total_ms - built.upload_ms);
@@ -71,7 +79,8 @@ void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, const M
     const double kilo_triangles = static_cast<double>(flat.triangle_count()) * 1e-3; // per ms: millions per second
     const auto rate = [&](const std::vector<double>& ms) { return kilo_triangles / median(ms); };
     const bool low = match.quality == RTC_BUILD_QUALITY_LOW;
-    report.add(low ? "build_low" : "build_medium", rate(to_volumes), rate(theirs), "Mtri/s");
+    report.add(std::string(low ? "build_low" : "build_medium") + (match.robust ? "_robust" : ""), rate(to_volumes),
+               rate(theirs), "Mtri/s");
     report.add(std::string("ready") + match.suffix, rate(ready), rate(theirs), "Mtri/s");
     std::printf("SAH cost %.2f\n", built.sah);
 }
@@ -129,6 +138,8 @@ int run(int argc, char** argv) {
     app.add_option("scene", name, "glTF file or procedural kind")->required();
     app.add_option("--report", file, "JSON file to write");
     app.add_option("--runs", runs, "timed runs of each side")->check(CLI::Range(1, 1000));
+    bool robust = false;
+    app.add_flag("--robust", robust, "also beside Embree's robust mode, which is watertight at edges as Boxwood is");
     app.add_option("--device", selector, "OpenCL device, by index or name");
     CLI11_PARSE(app, argc, argv);
 
@@ -139,7 +150,9 @@ int run(int argc, char** argv) {
                 device.info().name.c_str());
     EmbreePeer peer;
     Report report;
-    for (const Match& match : matches) {
+    for (const Match& match : matches_of(robust)) {
+        std::printf("\n%s against Embree's %s tree%s\n", std::string(name(match.builder)).c_str(),
+                    match.quality == RTC_BUILD_QUALITY_LOW ? "LOW" : "MEDIUM", match.robust ? ", robust" : "");
         measure_builds(device, flat, peer, match, runs, report);
         const Tree tree = build(device, flat, options_of(match));
         for (const Batch& batch : make_batches(device, flat, tree))
