@@ -31,7 +31,8 @@ INLINE TwoFloats add_scaled(TwoFloats a, float b, float c) {
 /// and sets *distance to how far that was. False when the ray misses the sphere or leaves it behind.
 ///
 /// Each step goes to where the ray is nearest to the center, less 2 radii / |direction|^2 times that; it misses that by some 8u
-/// of the step (u = 2^-24), so a few steps suffice from anywhere. Position and distance are sums of two floats, whose roundings are
+/// of the step (u = 2^-24) and, as steps are cut to 9 bits so that whole numbers stay whole, by 2^-8 of it: two steps suffice from
+/// 1e4 radii, eight from anywhere. Position and distance are sums of two floats, whose roundings are
 /// 2^-48 of a step: where it matters the moved origin is the exact point of the ray rounded once, off by u of its own
 /// coordinates, as an origin given there would be.
 static __attribute__((noinline)) bool move_origin(SceneSphere sphere, float3 direction, float3* origin,
@@ -44,7 +45,7 @@ static __attribute__((noinline)) bool move_origin(SceneSphere sphere, float3 dir
         const float3 to_center = (float3)(sphere.center[0] - x.high, sphere.center[1] - y.high, sphere.center[2] - z.high);
         const float along =
             fma(to_center.x, direction.x, fma(to_center.y, direction.y, to_center.z * direction.z)) / square;
-        const float step = along - 2.0f * sphere.radius;
+        const float step = as_float(as_uint(along - 2.0f * sphere.radius) & 0xffff8000u);
         if (i == 0 && !(step >= 0.0f)) return false;
         if (fabs(step) <= 0.25f * sphere.radius) break;
         x = add_scaled(x, step, direction.x);

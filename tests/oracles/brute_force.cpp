@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -120,7 +121,8 @@ bool approach(glm::vec3& origin, const glm::vec3& d, const SceneSphere& sphere, 
     const float square = std::fma(d.x, d.x, std::fma(d.y, d.y, d.z * d.z));
     for (int i = 0; i < 16; ++i) {
         const glm::vec3 to(sphere.center[0] - p[0].high, sphere.center[1] - p[1].high, sphere.center[2] - p[2].high);
-        const float step = std::fma(to.x, d.x, std::fma(to.y, d.y, to.z * d.z)) / square - 2.0f * sphere.radius;
+        const float whole = std::fma(to.x, d.x, std::fma(to.y, d.y, to.z * d.z)) / square - 2.0f * sphere.radius;
+        const float step = std::bit_cast<float>(std::bit_cast<std::uint32_t>(whole) & 0xffff8000u);
         if (i == 0 && !(step >= 0.0f)) return false;
         if (std::fabs(step) <= 0.25f * sphere.radius) break;
         for (int axis = 0; axis < 3; ++axis) p[static_cast<std::size_t>(axis)] = step_on(p[static_cast<std::size_t>(axis)], step, d[axis]);

@@ -151,7 +151,7 @@ int run(int argc, char** argv) {
     EmbreePeer peer;
     Report report;
     for (const Match& match : matches_of(robust)) {
-        std::printf("\n%s against Embree's %s tree%s\n", std::string(name(match.builder)).c_str(),
+        std::printf("\n%s against Embree's %s tree%s\n", std::string(boxwood::name(match.builder)).c_str(),
                     match.quality == RTC_BUILD_QUALITY_LOW ? "LOW" : "MEDIUM", match.robust ? ", robust" : "");
         measure_builds(device, flat, peer, match, runs, report);
         const Tree tree = build(device, flat, options_of(match));
