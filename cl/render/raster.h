@@ -12,6 +12,9 @@
 // that no pixel is left out that the ray test, which rounds in its own way, gives to the triangle: eight times the rounding of
 // the function (3u for its coefficients, 2u for its value, u = 2^-24) and of the corners (3u).
 #define EDGE_SLACK 0x1p-18f
+// The corners' own roundings and those of the ray test, 8u of what meets in the products of a function's coefficients: they
+// cancel where a triangle is seen nearly edge-on, such as a floor close under the eye.
+#define CORNER_SLACK 0x1p-21f
 
 /// a b - c d, off by at most 1.5 units in the last place, so that its sign is exact (Kahan; Jeannerod et al. 2013).
 inline float difference_of_products(float a, float b, float c, float d) {
@@ -150,7 +153,9 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
                                      difference_of_products(a[2], b[0], a[0], b[2]),
                                      difference_of_products(a[0], b[1], a[1], b[0]));
         edges->edge[i] = edge;
-        edges->slack[i] = EDGE_SLACK * (fabs(edge.x) * width + fabs(edge.y) * height + fabs(edge.z));
+        const float across = fabs(a[1] * b[2]) + fabs(a[2] * b[1]), upward = fabs(a[2] * b[0]) + fabs(a[0] * b[2]);
+        edges->slack[i] = EDGE_SLACK * (fabs(edge.x) * width + fabs(edge.y) * height + fabs(edge.z)) +
+                          CORNER_SLACK * (across * width + upward * height + fabs(a[0] * b[1]) + fabs(a[1] * b[0]));
     }
 }
 

@@ -101,7 +101,8 @@ TEST_CASE("raster: every pixel of a closed surface has a triangle, also on edges
 }
 
 TEST_CASE("raster: triangles through the plane of the eye") {
-    // A floor under the eye and far around it: below the horizon all pixels, above it none.
+    // A floor under the eye and far around it: below the horizon all pixels, above it none. Nearer than 17 roundoffs of its triangles'
+    // extents, 0.06, a ray could not tell on which side of them it starts.
     const std::uint32_t width = 50, height = 40;
     Random random(311);
     const auto anywhere = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
@@ -112,7 +113,7 @@ TEST_CASE("raster: triangles through the plane of the eye") {
     scene.instances[0].transform = glm::rotate(glm::mat4(1.0f), -1.5707964f, {1, 0, 0});
     Camera camera;
     camera.vertical_fov = 1.2f;
-    for (const float height_above : {1.0f, 1e-3f}) {
+    for (const float height_above : {1.0f, 0.1f}) {
         camera.to_world = glm::translate(glm::mat4(1.0f), {0.2f, height_above, 0.1f});
         for (const BuildOptions& options : tree_options()) {
             const BothHits both = both_hits(test_device(), scene, options, camera, width, height);
