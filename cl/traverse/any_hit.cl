@@ -16,8 +16,8 @@
 
 /// Each work-item traces `slice` consecutive rays.
 ///
-/// @pre  A valid, not empty tree within the stack bound of walk.h; all of it in `sphere`. `top_nodes` and `instances` are read for two levels
-///       only, `areas`, `area_nodes` and `area_items` for areas only; otherwise they may be null.
+/// @pre  A valid, not empty tree within the stack bound of walk.h, all of it in `sphere`. `top_nodes` and `instances` are
+///       read for two levels only, `areas`, `area_nodes` and `area_items` for areas only; otherwise they may be null.
 /// @post hits[i] is 1 when rays[i] hits something, else 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
     global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,

@@ -120,7 +120,8 @@ TreeResult study_tree(Device& device, const Primitives& primitives, InfluenceRec
                                     static_cast<float>(box_price), static_cast<float>(primitive_price));
     TreeResult result;
     follow_rays(device,
-                {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {}), primitives.sphere},
+                {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {}),
+                 primitives.sphere},
                 rays, result);
     const AnalysisTree nodes = analysis_tree(device, tree.topology, volumes, tree.leaves);
     area.share = 1.0f; // all rays that are followed

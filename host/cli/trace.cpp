@@ -134,8 +134,9 @@ void run(const Arguments& arguments) {
     Result result;
     {
         const Stage stage(device, "trace");
-        result = arguments.rays.kind == "shadow" ? trace_any(device, prepared.tree, rays, arguments.options, progress)
-                                                 : trace_closest(device, prepared.tree, rays, arguments.options, progress);
+        result = arguments.rays.kind == "shadow"
+                     ? trace_any(device, prepared.tree, rays, arguments.options, progress)
+                     : trace_closest(device, prepared.tree, rays, arguments.options, progress);
     }
     progress.step("counting");
     {

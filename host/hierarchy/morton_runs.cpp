@@ -39,11 +39,12 @@ LongRuns find_long_runs(Device& device, BufferView<const Key> keys, KeyFormat fo
     const std::uint32_t whole_trees = later ? 0 : 1;
     const std::size_t trees = offsets.size() - 1;
     const Slices slices = cut(device, count);
-    const auto tallies = make_scratch<std::uint64_t>(device, slices.slices, "tallies of runs");
+    const auto all_tallies = make_scratch<std::uint64_t>(device, most_slices(device, count), "tallies of runs");
+    const BufferView<std::uint64_t> tallies = all_tallies.prefix(slices.slices);
     launch(device, kernel<Key>("count_runs", format, trees), "count runs", slices.slices, keys, offsets, tallies,
            long_run, whole_trees, count, slices.length);
     inclusive_scan<std::uint64_t>(device, tallies, Operator::sum, tallies);
-    const std::uint64_t sums = download_element(device, tallies, slices.slices - 1);
+    const std::uint64_t sums = download_element(device, all_tallies, slices.slices - 1);
     if (sums == 0) return runs;
     runs.members = make_scratch<std::uint32_t>(device, static_cast<std::uint32_t>(sums), "members of runs");
     runs.starts = make_scratch<std::uint32_t>(device, (sums >> 32) + 1, "starts of runs");

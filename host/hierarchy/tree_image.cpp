@@ -47,7 +47,7 @@ const char* wrong_with(const Triangle& leaf, PrimitiveSet& primitives) {
 
 const char* wrong_with(const Triangle4& leaf, PrimitiveSet& primitives) {
     for (std::uint32_t slot = 0; slot < 4; ++slot) {
-        const std::array<float, 9> values = {leaf.v0_x[slot],    leaf.v0_y[slot],    leaf.v0_z[slot],
+        const std::array<float, 9> values = {leaf.v0_x[slot], leaf.v0_y[slot], leaf.v0_z[slot],
                                              leaf.v1_x[slot], leaf.v1_y[slot], leaf.v1_z[slot],
                                              leaf.v2_x[slot], leaf.v2_y[slot], leaf.v2_z[slot]};
         if (leaf.primitive[slot] == BOXWOOD_NONE) {

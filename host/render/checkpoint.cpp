@@ -104,9 +104,9 @@ void add_camera(bxw::Checksum& sum, const Camera& camera) {
 
 void add_options(bxw::Checksum& sum, const RenderOptions& options) {
     const LightOptions& light = options.light;
-    for (const std::string_view word : {name(light.integrator), name(light.primary), name(light.sampler),
-                                        name(light.strategy), name(light.hemisphere), name(light.filter),
-                                        name(light.trace.intersector)})
+    for (const std::string_view word :
+         {name(light.integrator), name(light.primary), name(light.sampler), name(light.strategy),
+          name(light.hemisphere), name(light.filter), name(light.trace.intersector)})
         add_text(sum, word);
     for (const std::uint32_t number : {light.samples, light.depth, options.width, options.height})
         add_value(sum, number);

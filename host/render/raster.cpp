@@ -64,7 +64,8 @@ struct Batch {
 } // namespace
 
 Rasteriser::Rasteriser(Device& device, const Scene& scene, const Tree& tree, const Geometry& geometry)
-    : device_(device), geometry_(geometry), sphere_(tree.sphere), instances_(static_cast<std::uint32_t>(scene.instances.size())) {
+    : device_(device), geometry_(geometry), sphere_(tree.sphere),
+      instances_(static_cast<std::uint32_t>(scene.instances.size())) {
     const std::vector<std::uint32_t> before = placed_before(scene);
     placed_ = before.back();
     first_placed_ = upload(device, before, "placed triangles");

@@ -74,9 +74,9 @@ SceneSphere scene_sphere(const Scene& scene) {
         reach[axis] = std::max(box->upper[axis] - center, center - box->lower[axis]);
     }
     // Rounded up, and never so small beside the coordinates that their roundings count.
-    const double radius = std::max(glm::length(reach), 0x1p-20 * std::max({std::fabs(box->middle().x),
-                                                                           std::fabs(box->middle().y),
-                                                                           std::fabs(box->middle().z)}));
+    const double radius = std::max(
+        glm::length(reach),
+        0x1p-20 * std::max({std::fabs(box->middle().x), std::fabs(box->middle().y), std::fabs(box->middle().z)}));
     sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
     return sphere;
 }

@@ -20,8 +20,8 @@ void ray_visits(Device& device, const MarkedTree& tree, BufferView<const Ray> ra
         {{"STACK_SIZE", std::to_string(stack_entries(std::uint64_t{height} + 1))}, {"PORTABLE_LANES", "0"}}};
     const Slices slices = cut_rays(device, rays.size());
     launch(device, kernel, "ray visits", slices.slices, tree.topology.children, tree.topology.far_ends, tree.leaves,
-           tree.volumes, tree.triangles, count, rays, static_cast<std::uint32_t>(rays.size()), slices.length, tree.sphere,
-           visits, hits);
+           tree.volumes, tree.triangles, count, rays, static_cast<std::uint32_t>(rays.size()), slices.length,
+           tree.sphere, visits, hits);
 }
 
 } // namespace boxwood

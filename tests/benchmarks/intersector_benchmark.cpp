@@ -17,12 +17,14 @@
 #include "boxwood/trace.hpp"
 #include "oracles/closed_meshes.hpp"
 #include "oracles/exact_ray.hpp"
+#include "oracles/generator.hpp"
 #include "race.hpp"
 
 namespace boxwood::benchmarks {
 namespace {
 
 using test::Corners;
+using test::Generator;
 
 constexpr Intersector both[] = {Intersector::watertight, Intersector::moeller_trumbore};
 
@@ -31,22 +33,6 @@ struct Case {
     std::string name;
     Scene scene;
     std::vector<Ray> rays;
-};
-
-class Generator {
-public:
-    explicit Generator(std::uint64_t seed) : state_(seed) {}
-    float uniform(float low, float high) {
-        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-        return low + (high - low) * static_cast<float>(state_ >> 40) * 0x1p-24f;
-    }
-    glm::vec3 cube(float reach) {
-        const float x = uniform(-reach, reach), y = uniform(-reach, reach);
-        return {x, y, uniform(-reach, reach)};
-    }
-
-private:
-    std::uint64_t state_;
 };
 
 Scene scene_of(Mesh mesh) {
@@ -65,12 +51,13 @@ Case random_case(std::size_t rays) {
     Generator random(1);
     Mesh mesh;
     for (std::uint32_t i = 0; i < 100; ++i) {
-        const glm::vec3 middle = random.cube(1.0f);
-        for (int k = 0; k < 3; ++k) mesh.positions.push_back(middle + random.cube(0.3f));
+        const glm::vec3 middle = glm::vec3(random.cube());
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(middle + 0.3f * glm::vec3(random.cube()));
         mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
     Case one{"random rays", scene_of(std::move(mesh)), {}};
-    for (std::size_t i = 0; i < rays; ++i) one.rays.push_back(ray_to(random.cube(3.0f), random.cube(1.0f)));
+    for (std::size_t i = 0; i < rays; ++i)
+        one.rays.push_back(ray_to(3.0f * glm::vec3(random.cube()), glm::vec3(random.cube())));
     return one;
 }
 
@@ -79,8 +66,8 @@ Case sliver_case(const std::string& name, float width, std::size_t rays) {
     Generator random(2);
     Mesh mesh;
     for (std::uint32_t i = 0; i < 100; ++i) {
-        const glm::vec3 middle = random.cube(1.0f), along = glm::normalize(random.cube(1.0f));
-        const glm::vec3 across = width * glm::normalize(glm::cross(along, random.cube(1.0f)));
+        const glm::vec3 middle = glm::vec3(random.cube()), along = glm::normalize(glm::vec3(random.cube()));
+        const glm::vec3 across = width * glm::normalize(glm::cross(along, glm::vec3(random.cube())));
         for (const glm::vec3& p : {middle - along, middle + along, middle + across}) mesh.positions.push_back(p);
         mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
@@ -180,7 +167,8 @@ void price_speed(Device& device, const std::string& file, const Arguments& argum
         const Tree tree = build(device, scene, {.layout = layout, .builder = Builder::sah});
         std::vector<std::function<void()>> contenders;
         for (const Intersector intersector : both)
-            contenders.emplace_back([&, intersector] { closest_hit(device, tree, rays, hits, {.intersector = intersector}); });
+            contenders.emplace_back(
+                [&, intersector] { closest_hit(device, tree, rays, hits, {.intersector = intersector}); });
         const std::vector<double> ms = race(device, contenders, arguments.rounds);
         const std::string layout_name(name(layout));
         std::printf("%-24s %-8s %12.2f %16.2f %9.3f\n", title.c_str(), layout_name.c_str(), side * side * 1e-3 / ms[0],
@@ -198,7 +186,8 @@ int run(int argc, char** argv) {
     std::size_t rays = 20000;
     add_arguments(app, arguments);
     app.add_option("scenes", files, "glTF files whose primary rays are timed; a terrain without any");
-    app.add_option("--rays", rays, "of each sort that is compared with exact arithmetic")->check(CLI::Range(1, 10000000));
+    app.add_option("--rays", rays, "of each sort that is compared with exact arithmetic")
+        ->check(CLI::Range(1, 10000000));
     CLI11_PARSE(app, argc, argv);
     if (files.empty()) files.emplace_back();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of tree, all of
-// which must give the same hits. Runs for as many rays as asked and fails on one miss or one difference.
+// which must give the same hits; of slivers, grazing rays and random bits those of brute force. Runs for as many rays as asked, and
+// fails on one miss or one difference.
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -9,9 +10,15 @@
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/trace.hpp"
+#include "oracles/brute_force.hpp"
 #include "oracles/closed_meshes.hpp"
+#include "oracles/extreme_rays.hpp"
 
-namespace boxwood::benchmarks {
+namespace boxwood {
+
+std::uint64_t test::test_seed() { return 20260101; } // the oracles ask for it
+
+namespace benchmarks {
 namespace {
 
 using test::ClosedScene;
@@ -94,6 +101,39 @@ Count check_scene(Device& device, const ClosedScene& closed, Levels levels, doub
     return count;
 }
 
+/// Slivers, grazing rays and random bits: what brute force says is asked of every tree.
+Count check_extremes(Device& device, const test::ExtremeRays& made, Levels levels) {
+    const std::vector<Hit> expected = test::BruteForce(made.scene, levels).closest_hits(made.rays);
+    const Buffer<Ray> rays = upload(device, made.rays, "rays");
+    const Buffer<Hit> hits = make_buffer<Hit>(device, made.rays.size(), "hits");
+    Count count;
+    for (const Kind& kind : kinds_of(levels)) {
+        closest_hit(device, build_kind(device, made.scene, kind, levels), rays, hits);
+        const std::vector<Hit> found = download(device, hits);
+        for (std::size_t i = 0; i < found.size(); ++i) count.different += !same(found[i], expected[i]);
+        count.rays += found.size();
+    }
+    return count;
+}
+
+/// The scenes of check_extremes with `rays` in all.
+std::vector<test::ExtremeRays> extremes(double rays, std::uint64_t seed) {
+    const double kinds = 4.0 * static_cast<double>(kinds_of(Levels::one).size() + kinds_of(Levels::two).size());
+    const auto each = static_cast<std::size_t>(std::max(rays / kinds, 1.0));
+    return {test::sliver_rays(1.0f, 200, each, seed), test::sliver_rays(1e3f, 200, each, seed),
+            test::sliver_rays(1e6f, 200, each, seed), test::random_bit_rays(500, each, seed)};
+}
+
+void print(const std::string& scene, Levels levels, const Count& count, Count& all) {
+    std::printf("%-52s %6s %14llu %8llu %10llu\n", scene.c_str(), std::string(name(levels)).c_str(),
+                static_cast<unsigned long long>(count.rays), static_cast<unsigned long long>(count.missed),
+                static_cast<unsigned long long>(count.different));
+    std::fflush(stdout);
+    all.rays += count.rays;
+    all.missed += count.missed;
+    all.different += count.different;
+}
+
 int run(int argc, char** argv) {
     CLI::App app{"Counts rays that get out of closed meshes, and trees that disagree"};
     std::string selector;
@@ -111,25 +151,21 @@ int run(int argc, char** argv) {
     const std::vector<test::ClosedKind> scenes = test::closed_kinds();
     for (const test::ClosedKind& kind : scenes) {
         const ClosedScene closed = test::make_closed(kind);
-        for (const Levels levels : {Levels::one, Levels::two}) {
-            const Count count =
-                check_scene(device, closed, levels, rays / static_cast<double>(2 * scenes.size()), seed);
-            std::printf("%-52s %6s %14llu %8llu %10llu\n", kind.name.c_str(), std::string(name(levels)).c_str(),
-                        static_cast<unsigned long long>(count.rays), static_cast<unsigned long long>(count.missed),
-                        static_cast<unsigned long long>(count.different));
-            std::fflush(stdout);
-            all.rays += count.rays;
-            all.missed += count.missed;
-            all.different += count.different;
-        }
+        for (const Levels levels : {Levels::one, Levels::two})
+            print(kind.name, levels,
+                  check_scene(device, closed, levels, 0.9 * rays / static_cast<double>(2 * scenes.size()), seed), all);
     }
+    for (const test::ExtremeRays& made : extremes(0.1 * rays, seed))
+        for (const Levels levels : {Levels::one, Levels::two})
+            print(made.name, levels, check_extremes(device, made, levels), all);
     std::printf("%llu rays: %llu missed, %llu different\n", static_cast<unsigned long long>(all.rays),
                 static_cast<unsigned long long>(all.missed), static_cast<unsigned long long>(all.different));
     return all.missed + all.different == 0 ? 0 : 1;
 }
 
 } // namespace
-} // namespace boxwood::benchmarks
+} // namespace benchmarks
+} // namespace boxwood
 
 int main(int argc, char** argv) {
     return boxwood::benchmarks::guarded("boxwood-benchmark-watertight",

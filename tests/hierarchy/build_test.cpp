@@ -349,8 +349,7 @@ TEST_CASE("build: a scene scaled by a power of two has the same tree, scaled") {
                 for (auto* bounds : {&node.min_x, &node.max_x, &node.min_y, &node.max_y, &node.min_z, &node.max_z})
                     for (float& x : *bounds) x = std::ldexp(x, k);
             for (Triangle4& b : expected.blocks)
-                for (auto* lanes : {&b.v0_x, &b.v0_y, &b.v0_z, &b.v1_x, &b.v1_y, &b.v1_z, &b.v2_x,
-                                    &b.v2_y, &b.v2_z})
+                for (auto* lanes : {&b.v0_x, &b.v0_y, &b.v0_z, &b.v1_x, &b.v1_y, &b.v1_z, &b.v2_x, &b.v2_y, &b.v2_z})
                     for (float& x : *lanes) x = std::ldexp(x, k);
             CHECK(same_trees(build_image(scene_of({scaled}), options), expected));
         }

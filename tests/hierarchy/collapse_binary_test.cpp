@@ -71,8 +71,7 @@ std::size_t wrong_triangles(const BinaryLayout& layout, const BuiltForest& built
         for (std::uint32_t i = t.offsets[tree]; i < t.offsets[tree + 1]; ++i) {
             const std::uint32_t primitive = t.order[i] - t.offsets[tree];
             const glm::uvec3 corners = mesh.triangles[primitive];
-            const glm::vec3 a = mesh.positions[corners.x], b = mesh.positions[corners.y],
-                            c = mesh.positions[corners.z];
+            const glm::vec3 a = mesh.positions[corners.x], b = mesh.positions[corners.y], c = mesh.positions[corners.z];
             const Triangle expected{{a.x, a.y, a.z}, primitive, {b.x, b.y, b.z}, 0, {c.x, c.y, c.z}, 0};
             if (!same_bits<Triangle>({triangles[i]}, {expected})) ++wrong;
         }

@@ -172,7 +172,7 @@ private:
 
     /// Corners of scene triangle `primitive`, zeros for none.
     void check_lane(const Triangle4& b, int lane, std::uint32_t primitive) {
-        const float got[] = {b.v0_x[lane],    b.v0_y[lane],    b.v0_z[lane],    b.v1_x[lane], b.v1_y[lane],
+        const float got[] = {b.v0_x[lane], b.v0_y[lane], b.v0_z[lane], b.v1_x[lane], b.v1_y[lane],
                              b.v1_z[lane], b.v2_x[lane], b.v2_y[lane], b.v2_z[lane]};
         float expected[9] = {};
         if (primitive != BOXWOOD_NONE) {

@@ -149,8 +149,7 @@ double brute_force_overlap(const BuiltForest& built, const std::vector<Triangle>
         for (std::uint32_t p = built.topology.offsets[tree]; p < built.topology.offsets[tree + 1]; p += stride) {
             const Triangle& t = triangles[p];
             const glm::dvec3 v0(t.v0[0], t.v0[1], t.v0[2]);
-            const Polygon polygon{v0, glm::dvec3(t.v1[0], t.v1[1], t.v1[2]),
-                                  glm::dvec3(t.v2[0], t.v2[1], t.v2[2])};
+            const Polygon polygon{v0, glm::dvec3(t.v1[0], t.v1[1], t.v1[2]), glm::dvec3(t.v2[0], t.v2[1], t.v2[2])};
             total += area_of(polygon);
             for_nodes(built.topology, built.topology.root(tree), [&](std::uint32_t node) {
                 const Span span = span_of(built.topology, node);

@@ -125,7 +125,8 @@ bool approach(glm::vec3& origin, const glm::vec3& d, const SceneSphere& sphere, 
         const float step = std::bit_cast<float>(std::bit_cast<std::uint32_t>(whole) & 0xffff8000u);
         if (i == 0 && !(step >= 0.0f)) return false;
         if (std::fabs(step) <= 0.25f * sphere.radius) break;
-        for (int axis = 0; axis < 3; ++axis) p[static_cast<std::size_t>(axis)] = step_on(p[static_cast<std::size_t>(axis)], step, d[axis]);
+        for (int axis = 0; axis < 3; ++axis)
+            p[static_cast<std::size_t>(axis)] = step_on(p[static_cast<std::size_t>(axis)], step, d[axis]);
         way = step_on(way, step, 1.0f);
     }
     origin = {p[0].high, p[1].high, p[2].high};
@@ -244,7 +245,8 @@ void BruteForce::search(const Local& ray, std::uint32_t instance, Hit& best) con
         for (std::size_t i = 0; i < block; ++i) {
             // The first of equal distances is the lowest (instance, primitive).
             if (!(t[i] > ray.t_min && t[i] <= limit && (t[i] < best.t || best.primitive == BOXWOOD_NONE))) continue;
-            const Point p = cross(plain, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
+            const Point p =
+                cross(plain, c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]);
             best = {p.t, p.u, p.v, static_cast<std::uint32_t>(first + i), instance};
         }
     }
@@ -260,7 +262,8 @@ Hit BruteForce::closest_hit(const Ray& ray) const {
     const int size = sphere_.radius < 0x1p-126f ? -127 : std::ilogb(sphere_.radius);
     glm::vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
     glm::vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
-    const int length = power(largest(direction)), unit = std::clamp(std::clamp(size, -60, 60), length - 126, length + 126);
+    const int length = power(largest(direction)),
+              unit = std::clamp(std::clamp(size, -60, 60), length - 126, length + 126);
     const int scale = length - unit;
     float t_min = std::ldexp(std::fabs(ray.t_min), scale);
     float t_max = std::min(std::ldexp(std::min(ray.t_max, std::numeric_limits<float>::max()), scale),

@@ -8,30 +8,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "oracles/generator.hpp"
+
 namespace boxwood::test {
 
 namespace {
-
-/// splitmix64
-class Generator {
-public:
-    explicit Generator(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits() % count); }
-    glm::dvec3 cube() {
-        const double x = unit(), y = unit();
-        return 2.0 * glm::dvec3(x, y, unit()) - 1.0;
-    }
-
-private:
-    std::uint64_t state_;
-};
 
 Mesh sphere(const ClosedKind& kind) {
     Mesh mesh;
@@ -83,8 +64,10 @@ glm::vec3 aimed(const ClosedScene& closed, Aim aim, const glm::vec3& origin, Gen
     case Aim::from_center:
         if (aim == Aim::from_center && random.below(2) == 0) return towards(corners[first]);
         return towards(glm::mix(corners[first], corners[second], random.unit()));
-    case Aim::vertices: return towards(corners[first]);
-    case Aim::along_edges: return glm::vec3(corners[second] - corners[first]);
+    case Aim::vertices:
+        return towards(corners[first]);
+    case Aim::along_edges:
+        return glm::vec3(corners[second] - corners[first]);
     case Aim::axes: {
         glm::vec3 direction = random.cube();
         const float zero = random.below(2) == 0 ? 0.0f : -0.0f;
@@ -93,7 +76,8 @@ glm::vec3 aimed(const ClosedScene& closed, Aim aim, const glm::vec3& origin, Gen
         if (random.below(2) == 0) direction[(axis + 1) % 3] = -zero;
         return direction;
     }
-    case Aim::anywhere: break;
+    case Aim::anywhere:
+        break;
     }
     return random.cube();
 }
@@ -141,7 +125,9 @@ std::vector<Ray> rays_from_inside(const ClosedScene& closed, Aim aim, std::size_
         const glm::vec3 origin(closed.inside + offset);
         glm::vec3 direction(0.0f);
         while (direction == glm::vec3(0.0f)) direction = aimed(closed, aim, origin, random);
-        ray = {{origin.x, origin.y, origin.z}, 0.0f, {direction.x, direction.y, direction.z},
+        ray = {{origin.x, origin.y, origin.z},
+               0.0f,
+               {direction.x, direction.y, direction.z},
                std::numeric_limits<float>::infinity()};
     }
     return rays;

@@ -23,8 +23,7 @@ ExactCrossing exact_crossing(const Ray& ray, const Corners& corners) {
     Triple d;
     for (std::size_t k = 0; k < 3; ++k) {
         d[k] = ray.direction[k];
-        for (std::size_t i = 0; i < 3; ++i)
-            p[i][k] = Number{corners[i][static_cast<int>(k)]} - Number{ray.origin[k]};
+        for (std::size_t i = 0; i < 3; ++i) p[i][k] = Number{corners[i][static_cast<int>(k)]} - Number{ray.origin[k]};
     }
     const Number u = dot(d, cross(p[2], p[1])), v = dot(d, cross(p[0], p[2])), w = dot(d, cross(p[1], p[0]));
     const Number sum = u + v + w;

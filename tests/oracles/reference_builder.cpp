@@ -308,7 +308,8 @@ void add_top(TreeImage& image, const Scene& scene, Shape shape) {
         }
         // The box itself rounds by half a unit in the last place.
         const glm::vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-        const double slack = slack_of(image.instances[i], image.sphere) + 0x1p-23 * std::max({reach.x, reach.y, reach.z});
+        const double slack =
+            slack_of(image.instances[i], image.sphere) + 0x1p-23 * std::max({reach.x, reach.y, reach.z});
         box.low -= static_cast<float>(slack);
         box.high += static_cast<float>(slack);
         corners.slack = std::max(corners.slack, slack);

@@ -2,7 +2,6 @@
 // Rays and scenes at the ends of float: slivers, grazing rays, triangles of random bits, all scales, and rays from far away.
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +9,7 @@
 #include "oracles/brute_force.hpp"
 #include "oracles/closed_meshes.hpp"
 #include "oracles/exact_ray.hpp"
+#include "oracles/extreme_rays.hpp"
 #include "oracles/reference_builder.hpp"
 #include "traverse/scenes.hpp"
 
@@ -69,53 +69,16 @@ glm::vec3 direction_of(Random& random) {
 } // namespace
 
 TEST_CASE("extremes: slivers and grazing rays, from near and from far away, the same from every tree") {
-    Random random(81);
-    const std::uint32_t triangles = small_sizes() ? 4 : 60, per_triangle = small_sizes() ? 2 : 40;
     for (const float aspect : {1.0f, 1e3f, 1e6f}) {
-        Mesh mesh;
-        std::vector<Ray> rays;
-        for (std::uint32_t i = 0; i < triangles; ++i) {
-            const glm::vec3 middle = 3.0f * direction_of(random), along = direction_of(random);
-            const glm::vec3 across = glm::normalize(glm::cross(along, direction_of(random)));
-            const glm::vec3 normal = glm::cross(along, across);
-            for (const glm::vec3& p : {middle - along, middle + along, middle + across / aspect})
-                mesh.positions.push_back(p);
-            mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-            for (std::uint32_t k = 0; k < per_triangle; ++k) {
-                const float angle = std::pow(10.0f, random.uniform(-6, -3));
-                const float away = std::pow(10.0f, random.uniform(0, 6));
-                const glm::vec3 target = middle + random.uniform(-0.5f, 0.5f) * along + across * (0.2f / aspect);
-                const glm::vec3 from = along + angle * normal + random.uniform(-1, 1) * across / aspect;
-                rays.push_back(ray_from(target + away * from, -from));
-            }
-        }
-        CAPTURE(aspect);
-        CHECK(check_trees(single(mesh), rays) > rays.size() / 50);
+        const ExtremeRays made = sliver_rays(aspect, small_sizes() ? 4 : 60, small_sizes() ? 8 : 2400, test_seed());
+        CAPTURE(made.name);
+        CHECK(check_trees(made.scene, made.rays) > made.rays.size() / 50);
     }
 }
 
 TEST_CASE("extremes: triangles of random bits, the same from every tree") {
-    Random random(82);
-    Mesh mesh;
-    const auto coordinate = [&] {
-        while (true) {
-            const float x = std::bit_cast<float>(static_cast<std::uint32_t>(random.bits() >> 32));
-            if (std::fabs(x) < 0x1p59f) return x;
-        }
-    };
-    for (std::uint32_t i = 0; i < (small_sizes() ? 8u : 500u); ++i) {
-        for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(coordinate(), coordinate(), coordinate());
-        mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-    }
-    std::vector<Ray> rays;
-    for (std::uint32_t i = 0; i < (small_sizes() ? 8u : 4000u); ++i) {
-        const std::uint32_t t = random.below(static_cast<std::uint32_t>(mesh.triangles.size()));
-        const glm::vec3 *p = &mesh.positions[3 * t], middle = p[0] / 3.0f + p[1] / 3.0f + p[2] / 3.0f;
-        glm::vec3 origin(coordinate(), coordinate(), coordinate());
-        if (i % 2 == 0) origin = middle + direction_of(random) * std::fabs(coordinate());
-        rays.push_back(ray_from(origin, i % 3 == 0 ? direction_of(random) : middle - origin));
-    }
-    check_trees(single(mesh), rays);
+    const ExtremeRays made = random_bit_rays(small_sizes() ? 8 : 500, small_sizes() ? 8 : 4000, test_seed());
+    check_trees(made.scene, made.rays);
 }
 
 TEST_CASE("extremes: a scene times 2^k from -120 to 58 gives the same hits") {
@@ -207,7 +170,9 @@ TEST_CASE("extremes: rays from far away hit what exact arithmetic says and cost 
 TEST_CASE("extremes: t is that of the plane to a few units in the last place, and exact on a lattice") {
     Random random(85);
     const std::uint32_t count = small_sizes() ? 40 : 4000;
-    const auto whole = [&](int reach) { return static_cast<float>(static_cast<int>(random.below(2 * reach + 1)) - reach); };
+    const auto whole = [&](int reach) {
+        return static_cast<float>(static_cast<int>(random.below(2 * reach + 1)) - reach);
+    };
     // Triangles z = const and x + y + z = const of whole numbers; rays between lattice points through points of them.
     for (std::uint32_t i = 0; i < count; ++i) {
         const glm::vec3 p(whole(8), whole(8), whole(8));

@@ -30,8 +30,8 @@ struct Marked {
     Buffer<Triangle> triangles;
 
     Marked(const Scene& scene, std::uint32_t leaf_size)
-        : built(build_forest_of(test_device(), scene)), sphere(scene_sphere(scene)), corners(test::corners(scene.meshes[0])),
-          leaves(built.topology.size()) {
+        : built(build_forest_of(test_device(), scene)), sphere(scene_sphere(scene)),
+          corners(test::corners(scene.meshes[0])), leaves(built.topology.size()) {
         Device& device = test_device();
         const auto count = built.topology.size();
         for (std::uint32_t i = 0; i + 1 < count; ++i) {
@@ -185,7 +185,8 @@ TEST_CASE("ray cost: no primitives, no visits") {
     Topology topology;
     const Guarded<RayVisits> visits(device, 3);
     const Guarded<Hit> hits(device, 3);
-    ray_visits(device, {topology, {}, {}, {}, {}}, upload(device, std::vector<Ray>(3), "rays"), visits.view(), hits.view());
+    ray_visits(device, {topology, {}, {}, {}, {}}, upload(device, std::vector<Ray>(3), "rays"), visits.view(),
+               hits.view());
     for (const RayVisits& each : visits.values()) CHECK(same(each, RayVisits{}));
     for (const Hit& hit : hits.values()) CHECK(hit.primitive == BOXWOOD_NONE);
 }
