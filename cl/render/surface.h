@@ -222,11 +222,11 @@ INLINE void bound_way(const Triangles* triangles, Vector* there, Vector* back) {
 #endif
 }
 
-/// A bound of the longest extent on every axis, in world space.
+/// The longest extent, as a bound on every axis in world space.
 INLINE void bound_extent(const Triangles* triangles, Vector* extent) {
-    const Vector *p = &triangles->edge1, *q = &triangles->edge2;
-    const Vector sums = {fabs(p->x) + fabs(q->x), fabs(p->y) + fabs(q->y), fabs(p->z) + fabs(q->z)};
-    const real longest = largest3(&sums);
+    Vector third;
+    subtract3(&triangles->edge2, &triangles->edge1, &third);
+    const real longest = larger(largest3(&triangles->edge1), larger(largest3(&triangles->edge2), largest3(&third)));
     const Vector isotropic = {longest, longest, longest};
 #if TRANSFORMS
     bound_rows(triangles->to_world, &isotropic, extent);

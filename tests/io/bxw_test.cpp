@@ -130,7 +130,7 @@ TEST_CASE("the file on disk has the documented layout") {
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(bytes.substr(0, 8) == "\x89"
                                 "BXW\r\n\x1a\n");
-    CHECK(bytes.substr(8, 4) == std::string("\x04\0\0\0", 4));  // version 4, little-endian
+    CHECK(bytes.substr(8, 4) == std::string("\x05\0\0\0", 4));  // version 5, little-endian
     CHECK(bytes.substr(12, 4) == std::string("\x19\0\0\0", 4)); // twenty-five sections
     CHECK(std::string(bytes.data() + 32) == "scene");
     // 32 bytes of header and 25 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
