@@ -89,7 +89,8 @@ TEST_CASE("path: a plane under a point light") {
     check_pixels(scene, 2.0f, [](const glm::dvec3& p, const Material& m) -> Wanted {
         const glm::dvec3 l = glm::dvec3(0.5, 1.5, -0.25) - p;
         const double window = std::max(1 - std::pow(glm::length(l) / 2, 4), 0.0);
-        return 5 * window * reference_bsdf(m, up, up, glm::normalize(l)).x / glm::dot(l, l);
+        const double without = 5 * reference_bsdf(m, up, up, glm::normalize(l)).x / glm::dot(l, l);
+        return {window * without, without}; // the window changes by as much where it closes
     });
 }
 
