@@ -13,6 +13,7 @@
 #include "oracles/brute_force.hpp"
 #include "oracles/closed_meshes.hpp"
 #include "oracles/extreme_rays.hpp"
+#include "support.hpp"
 
 namespace boxwood {
 
