@@ -31,14 +31,15 @@ struct Kind {
     Bounds bounds;
 };
 
-/// An area for `blend`: rays along an axis through all of the scene.
+/// An area for `blend`: rays along an axis through all of the scene, or all that areas may reach.
 std::vector<InfluenceArea> areas_of(const Scene& scene) {
     const SceneSphere sphere = scene_sphere(scene);
     InfluenceArea area;
-    area.origin = {sphere.center[0], sphere.center[1], sphere.center[2] - sphere.radius};
+    const double reach = std::min(double{sphere.radius}, 0.25 * double{largest_coordinate});
+    area.origin = {sphere.center[0], sphere.center[1], sphere.center[2] - reach};
     area.direction = {0.0, 0.0, 1.0};
-    area.half_width = area.half_height = sphere.radius;
-    area.far = 2.0 * sphere.radius;
+    area.half_width = area.half_height = reach;
+    area.far = 2.0 * reach;
     return {area};
 }
 
