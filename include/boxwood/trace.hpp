@@ -11,7 +11,7 @@ namespace boxwood {
 /// How a ray is tested against a triangle.
 enum class Intersector {
     watertight, ///< No ray passes at an edge or vertex of a closed surface, and answers do not depend on the tree.
-    moeller_trumbore, ///< The test of 1997, faster where triangles are many; neither holds, by roundings.
+    moeller_trumbore, ///< The test of 1997, which takes about as long; neither holds, by roundings.
 };
 
 /// The words used in options, reports and on the command line. to_intersector throws InputError listing them.
