@@ -22,12 +22,14 @@ INLINE uint lanes4_portable(int4 mask) {
     return (bytes & 0x08040201u) * 0x01010101u >> 24;
 }
 
-/// The lowest bit set in a mask that is not zero.
+/// The lowest and the highest bit set in a mask that is not zero.
 #if __OPENCL_C_VERSION__ >= 200
 INLINE uint first_lane(uint mask) { return ctz(mask); }
 #else
 INLINE uint first_lane(uint mask) { return 31 - clz(mask & -mask); }
 #endif
+
+INLINE uint last_lane(uint mask) { return 31 - clz(mask); }
 
 #if !PORTABLE_LANES && defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
 INLINE uint lanes8(int8 mask) { return (uint)__builtin_ia32_movmskps256(as_float8(mask)); }

@@ -33,29 +33,37 @@ INLINE float power_of_two(int exponent) { return as_float((uint)(exponent + 127)
 /// 1 / power, for powers of two from 2^-126 to 2^126.
 INLINE float inverse_of_power(float power) { return as_float(0x7f000000u - as_uint(power)); }
 
-/// The bits of the magnitudes, which order as these do, but faster.
-INLINE uint3 magnitudes(float3 v) { return as_uint3(v) & 0x7fffffffu; }
+/// The bits of the magnitudes of x, y and z, which order as these do, but faster; 0 for w.
+INLINE uint4 magnitudes(float4 v) { return as_uint4(v) & (uint4)(0x7fffffff, 0x7fffffff, 0x7fffffff, 0); }
 
-INLINE uint largest_of(uint3 bits) { return max(bits.x, max(bits.y, bits.z)); }
+/// The largest lane, in all lanes.
+INLINE uint4 largest_of(uint4 bits) {
+    const uint4 of_two = max(bits, bits.yxwz);
+    return max(of_two, of_two.zwxy);
+}
+
+/// The bits of the power of two of positive numbers, by their bits; at least that of 2^-126.
+INLINE uint4 power_bits(uint4 bits) { return max(bits & 0x7f800000u, 0x00800000u); }
 
 /// The exponent of a positive number's power of two, by its bits; at least -126.
 INLINE int exponent_of(uint bits) { return (int)max(bits >> 23, 1u) - 127; }
 
 /// A zero direction gives infinity for both inverses: its slab then never limits the ray inside (-inf to +inf, and
-/// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside. A direction so small that its
-/// reciprocal overflows has a finite, smaller one for entering.
+/// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside; -0 does so as a direction downward. A direction
+/// so small that its reciprocal overflows has a finite, smaller one for entering.
 INLINE void make_local_ray(float3 origin, float3 direction, int exponent, LocalRay* ray) {
-    const float3 inverse = -1.0f / direction;
-    const float3 near_inverse = clamp(inverse * (1.0f - BOX_SLACK), -FLT_MAX, FLT_MAX);
-    const float3 far_inverse = inverse * (1.0f + BOX_SLACK);
-    const float3 parallel = (float3)(-INFINITY);
+    // Four lanes, the last one anything: three cost more.
+    const float4 wide = as_float4(direction);
+    const float4 inverse = -1.0f / wide;
+    const float4 finite = max(min(inverse * (1.0f - BOX_SLACK), FLT_MAX), -FLT_MAX);
+    const uint4 near_rows = (as_uint4(wide) >> 31) << 5 | (uint4)(0, 64, 128, 0);
     ray->origin = origin;
     ray->direction = direction;
-    ray->minus_near_inverse = select(near_inverse, parallel, direction == 0.0f);
-    ray->minus_far_inverse = select(far_inverse, parallel, direction == 0.0f);
-    ray->near_x = direction.x < 0.0f ? 32 : 0;
-    ray->near_y = direction.y < 0.0f ? 96 : 64;
-    ray->near_z = direction.z < 0.0f ? 160 : 128;
+    ray->minus_near_inverse = select(finite, inverse, wide == 0.0f).xyz;
+    ray->minus_far_inverse = (inverse * (1.0f + BOX_SLACK)).xyz;
+    ray->near_x = near_rows.x;
+    ray->near_y = near_rows.y;
+    ray->near_z = near_rows.z;
     ray->exponent = exponent;
 }
 
@@ -68,7 +76,7 @@ INLINE float map_vector(global const float* matrix, uint row, float3 d) {
 /// The exponent by which a matrix makes lengths larger, at most.
 INLINE int growth(global const float* matrix) {
     const float4 row0 = vload4(0, matrix), row1 = vload4(1, matrix), row2 = vload4(2, matrix);
-    return exponent_of(largest_of(max(magnitudes(row0.xyz), max(magnitudes(row1.xyz), magnitudes(row2.xyz)))));
+    return exponent_of(largest_of(max(magnitudes(row0), max(magnitudes(row1), magnitudes(row2)))).x);
 }
 
 /// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space. The instance's place

@@ -15,9 +15,9 @@
 
 /// Where the ray is inside one box within [t_min, t_max]: from *entry on. False when nowhere. The empty box is nowhere.
 INLINE bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, float t_max, float* entry) {
-    const bool down_x = ray->direction.x < 0.0f;
-    const bool down_y = ray->direction.y < 0.0f;
-    const bool down_z = ray->direction.z < 0.0f;
+    const bool down_x = as_int(ray->direction.x) < 0;
+    const bool down_y = as_int(ray->direction.y) < 0;
+    const bool down_z = as_int(ray->direction.z) < 0;
     const float entry_x = ENTRY(down_x ? box->max[0] : box->min[0], x);
     const float entry_y = ENTRY(down_y ? box->max[1] : box->min[1], y);
     const float entry_z = ENTRY(down_z ? box->max[2] : box->min[2], z);

@@ -54,23 +54,24 @@ typedef struct Shear {
 /// which makes all that there is in the space at most some 2^35 long, so that products of three lengths neither over- nor underflow,
 /// however large or small the scene is.
 INLINE void make_shear(const LocalRay* ray, Shear* shear) {
-    const uint3 bits = magnitudes(ray->direction);
-    const uint largest = largest_of(bits);
-    const int unit = min(exponent_of(largest), 126);
-    shear->z = bits.z == largest ? 2 : bits.y == largest ? 1 : 0;
+    const float4 direction = as_float4(ray->direction);
+    const uint4 bits = magnitudes(direction);
+    const uint4 largest = largest_of(bits);
+    const uint4 unit = min(power_bits(largest), 0x7e800000u);
+    shear->z = last_lane(lanes4(bits == largest) & 7);
     shear->x = shear->z == 2 ? 0 : shear->z + 1;
     shear->y = shear->x == 2 ? 0 : shear->x + 1;
     shear->scale = power_of_two(clamp(ray->exponent, -126, 126));
     float from[4], along[4];
-    vstore4((float4)(ray->origin, 0.0f), 0, from);
-    vstore4((float4)(ray->direction * power_of_two(-unit) * shear->scale, 0.0f), 0, along);
+    vstore4(as_float4(ray->origin), 0, from);
+    vstore4(direction * as_float4(0x7f000000u - unit) * shear->scale, 0, along);
     shear->origin_x = from[shear->x];
     shear->origin_y = from[shear->y];
     shear->origin_z = from[shear->z];
     shear->direction_x = along[shear->x];
     shear->direction_y = along[shear->y];
     shear->direction_z = along[shear->z];
-    shear->minus_depth = -shear->direction_z * power_of_two(unit);
+    shear->minus_depth = -shear->direction_z * as_float(unit.x);
 }
 
 /// p q - r s, off by at most 2u of itself: its sign is exact unless products underflow (Kahan; Jeannerod et al. 2013).

@@ -12,7 +12,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_obb_test
     if (i >= count) return;
     const float4 origin = vload4(0, rays[i].origin);
     const float4 direction = vload4(0, rays[i].direction);
-    const int exponent = min(exponent_of(largest_of(magnitudes(direction.xyz))), 126);
+    const int exponent = min(exponent_of(largest_of(magnitudes(direction)).x), 126);
     LocalRay ray;
     make_local_ray(origin.xyz, direction.xyz * power_of_two(-exponent), 0, &ray);
     const float t_max = fmin(fmin(direction.w, FLT_MAX) * power_of_two(exponent), FLT_MAX);
