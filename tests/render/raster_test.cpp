@@ -10,8 +10,8 @@
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
+#include "render/both_hits.hpp"
 #include "render/camera.hpp"
-#include "render/raster_checks.hpp"
 #include "support.hpp"
 #include "traverse/scenes.hpp"
 
@@ -29,9 +29,8 @@ TEST_CASE("raster: the hits of rays, on every procedural scene and kind of tree"
         for (const BuildOptions& options : tree_options()) {
             const Camera& camera = scene.cameras.at(0);
             const BothHits both = both_hits(test_device(), scene, options, camera, width, height, {0.37f, -0.81f});
-            const Agreement result = agreement(scene, camera, height, both);
-            if (!small_sizes()) CHECK(result.hits > 0);
-            check_agreement(result);
+            if (!small_sizes()) CHECK(both.hits() > 0);
+            CHECK(both.different() == 0);
         }
     }
 }
@@ -56,9 +55,8 @@ TEST_CASE("raster: cameras inside of geometry, orthographic ones, and scenes of 
             camera.to_world[3] = glm::vec4(0.2f * scale, 0.1f * scale, 0.3f * scale, 1.0f);
             for (const BuildOptions& options : tree_options()) {
                 const BothHits both = both_hits(test_device(), scene, options, camera, width, height, {-0.25f, 0.5f});
-                const Agreement result = agreement(scene, camera, height, both);
-                CHECK(result.hits > 0);
-                check_agreement(result);
+                CHECK(both.hits() > 0);
+                CHECK(both.different() == 0);
             }
         }
     }
@@ -130,7 +128,7 @@ TEST_CASE("raster: the hits of rays on every real scene") {
         const Scene scene = load_gltf(entry.path());
         const Camera camera = scene.cameras.empty() ? default_camera(scene) : scene.cameras[0];
         const BothHits both = both_hits(test_device(), scene, BuildOptions{}, camera, 256, 256);
-        check_agreement(agreement(scene, camera, 256, both));
+        CHECK(both.different() == 0);
     }
 }
 

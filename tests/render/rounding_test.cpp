@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "boxwood/procedural.hpp"
-#include "render/raster_agreement.hpp"
+#include "render/both_hits.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
