@@ -54,7 +54,8 @@ INLINE bool begin_ray(global const Ray* source, const SceneSphere* sphere, Local
     const int target = clamp(size, -60, 60);
     // Powers of two as their bits, all lanes alike: faster than in scalars.
     const uint4 length = power_bits(largest);
-    const uint4 factor = clamp(length, (uint)max(target + 1, 1) << 23, (uint)(target + 253) << 23) - ((uint)target << 23);
+    const uint4 least = (uint4)((uint)max(target + 1, 1) << 23), greatest = (uint4)((uint)(target + 253) << 23);
+    const uint4 factor = clamp(length, least, greatest) - ((uint)target << 23);
     const float4 inverse = as_float4(0x7f000000u - factor);
     units->inverse = inverse.x;
     units->length = as_float((length.x - factor.x) + 0x3f800000u);

@@ -42,8 +42,9 @@ INLINE uint4 largest_of(uint4 bits) {
     return max(of_two, of_two.zwxy);
 }
 
-/// The bits of the power of two of positive numbers, by their bits; at least that of 2^-126.
-INLINE uint4 power_bits(uint4 bits) { return max(bits & 0x7f800000u, 0x00800000u); }
+/// The bits of the power of two of positive numbers, by their bits; at least that of 2^-126. (Integer min, max and clamp with a scalar
+/// as the bound of a vector go wrong in Oclgrind 21.10.)
+INLINE uint4 power_bits(uint4 bits) { return max(bits & 0x7f800000u, (uint4)(0x00800000u)); }
 
 /// The exponent of a positive number's power of two, by its bits; at least -126.
 INLINE int exponent_of(uint bits) { return (int)max(bits >> 23, 1u) - 127; }

@@ -57,7 +57,7 @@ INLINE void make_shear(const LocalRay* ray, Shear* shear) {
     const float4 direction = as_float4(ray->direction);
     const uint4 bits = magnitudes(direction);
     const uint4 largest = largest_of(bits);
-    const uint4 unit = min(power_bits(largest), 0x7e800000u);
+    const uint4 unit = min(power_bits(largest), (uint4)(0x7e800000u));
     shear->z = last_lane(lanes4(bits == largest) & 7);
     shear->x = shear->z == 2 ? 0 : shear->z + 1;
     shear->y = shear->x == 2 ? 0 : shear->x + 1;
