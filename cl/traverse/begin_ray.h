@@ -56,7 +56,7 @@ INLINE bool begin_ray(global const Ray* source, const SceneSphere* sphere, Local
     const uint4 length = power_bits(largest);
     const uint4 least = (uint4)((uint)max(target + 1, 1) << 23), greatest = (uint4)((uint)(target + 253) << 23);
     const uint4 factor = clamp(length, least, greatest) - ((uint)target << 23);
-    const float4 inverse = as_float4(0x7f000000u - factor);
+    const float4 inverse = inverse_of_power_bits(factor);
     units->inverse = inverse.x;
     units->length = as_float((length.x - factor.x) + 0x3f800000u);
     units->moved.high = 0.0f;

@@ -46,6 +46,9 @@ INLINE uint4 largest_of(uint4 bits) {
 /// as the bound of a vector go wrong in Oclgrind 21.10.)
 INLINE uint4 power_bits(uint4 bits) { return max(bits & 0x7f800000u, (uint4)(0x00800000u)); }
 
+/// inverse_of_power in each lane, of powers as bits.
+INLINE float4 inverse_of_power_bits(uint4 power) { return as_float4(0x7f000000u - power); }
+
 /// The exponent of a positive number's power of two, by its bits; at least -126.
 INLINE int exponent_of(uint bits) { return (int)max(bits >> 23, 1u) - 127; }
 

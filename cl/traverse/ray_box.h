@@ -15,6 +15,7 @@
 
 /// Where the ray is inside one box within [t_min, t_max]: from *entry on. False when nowhere. The empty box is nowhere.
 INLINE bool ray_box(const LocalRay* ray, global const Aabb* box, float t_min, float t_max, float* entry) {
+    // By the sign bit, as make_local_ray has it: -0 is a direction downward.
     const bool down_x = as_int(ray->direction.x) < 0;
     const bool down_y = as_int(ray->direction.y) < 0;
     const bool down_z = as_int(ray->direction.z) < 0;

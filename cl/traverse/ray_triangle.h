@@ -58,13 +58,14 @@ INLINE void make_shear(const LocalRay* ray, Shear* shear) {
     const uint4 bits = magnitudes(direction);
     const uint4 largest = largest_of(bits);
     const uint4 unit = min(power_bits(largest), (uint4)(0x7e800000u));
+    // Without w: all lanes are equal where an instance's transform has left nothing of the direction.
     shear->z = last_lane(lanes4(bits == largest) & 7);
     shear->x = shear->z == 2 ? 0 : shear->z + 1;
     shear->y = shear->x == 2 ? 0 : shear->x + 1;
     shear->scale = power_of_two(clamp(ray->exponent, -126, 126));
     float from[4], along[4];
     vstore4(as_float4(ray->origin), 0, from);
-    vstore4(direction * as_float4(0x7f000000u - unit) * shear->scale, 0, along);
+    vstore4(direction * inverse_of_power_bits(unit) * shear->scale, 0, along);
     shear->origin_x = from[shear->x];
     shear->origin_y = from[shear->y];
     shear->origin_z = from[shear->z];
