@@ -2,8 +2,8 @@
 // Light from infinitely far away: its radiance in a direction, and directions drawn by it.
 //
 // ENVIRONMENT  0: there is none. 1: the same everywhere; drawn uniformly from the hemisphere over a surface. 2: a picture of the
-//              sphere; drawn texel by texel by the mass of the interpolated picture, uniformly over a texel's angles, so that
-//              there is no radiance without density.
+//              sphere, bilinear between the centres of texels; drawn by its luminance: a patch between four centres, then a
+//              place in it (Pharr, Jakob and Humphreys 2023, A.5), so that there is no radiance without density.
 #ifndef BOXWOOD_RENDER_ENVIRONMENT_H
 #define BOXWOOD_RENDER_ENVIRONMENT_H
 #include "render/search.h"
@@ -20,8 +20,8 @@ typedef struct EnvironmentArrays {
     global const EnvironmentRecord* record;
 #if ENVIRONMENT == 2
     global const float* texels;  ///< 3 per texel, rows from +y to -y.
-    global const float* rows;    ///< height + 1: distribution over the rows.
-    global const float* columns; ///< height times width + 1: distributions over the texels of a row.
+    global const float* rows;    ///< height + 2: distribution over the rows of patches.
+    global const float* columns; ///< height + 1 times width + 1: distributions over the patches of a row.
 #endif
 } EnvironmentArrays;
 #endif
@@ -34,37 +34,63 @@ INLINE void mix3(real part, const Vector* to, Vector* from) {
     from->z = fma(part, to->z - from->z, from->z);
 }
 
-/// Radiance at a place of the picture, in texels, bilinear between their centres.
-INLINE void picture_radiance(const EnvironmentArrays* environment, real x, real y, Vector* radiance) {
-    const uint width = environment->record->width;
-    const real right_end = (real)((float)width), bottom = (real)((float)environment->record->height - 1.0f);
-    const real column = floor(x - 0.5f), row = floor(y - 0.5f);
-    const real across = x - 0.5f - column, down = y - 0.5f - row;
-    // Columns wrap around, rows end.
-    const whole left = TO_WHOLE(CHOOSE(column < 0.0f, right_end - 1.0f, column));
-    const whole right = TO_WHOLE(CHOOSE(column + 1.0f < right_end, column + 1.0f, (real)(0.0f)));
-    const whole above = TO_WHOLE(GREATER(row, (real)(0.0f))) * width, below = TO_WHOLE(LESSER(row + 1.0f, bottom)) * width;
-    uint index[LANES];
-    Vector texels[4];
-    STORE_LANES(above + left, index);
-    load_vectors(environment->texels, 3, index, &texels[0]);
-    STORE_LANES(above + right, index);
-    load_vectors(environment->texels, 3, index, &texels[1]);
-    STORE_LANES(below + left, index);
-    load_vectors(environment->texels, 3, index, &texels[2]);
-    STORE_LANES(below + right, index);
-    load_vectors(environment->texels, 3, index, &texels[3]);
-    mix3(across, &texels[1], &texels[0]);
-    mix3(across, &texels[3], &texels[2]);
-    mix3(down, &texels[2], &texels[0]);
-    *radiance = texels[0];
+/// A patch of the picture, in each lane: the texels whose centres are its corners (those of the first or the last row twice, half a
+/// texel being left beyond them), and where it begins and ends, in texels.
+typedef struct Patch {
+    Vector corners[2][2]; ///< By row and column.
+    real left, top, height;
+} Patch;
+
+INLINE real luminance(const Vector* c) { return fma(c->x, 0.2126f, fma(c->y, 0.7152f, c->z * 0.0722f)); }
+
+/// The patch of column `column`, which begins at the centre of that texel, and row `row`, which ends at the centre of that one.
+INLINE void load_patch(const EnvironmentArrays* environment, const uint* column, const uint* row, Patch* patch) {
+    const uint width = environment->record->width, height = environment->record->height;
+    uint index[2][2][LANES];
+    for (uint lane = 0; lane < LANES; ++lane) {
+        const uint above = max(row[lane], 1u) - 1, below = min(row[lane], height - 1);
+        const uint right = column[lane] + 1 < width ? column[lane] + 1 : 0;
+        index[0][0][lane] = above * width + column[lane];
+        index[0][1][lane] = above * width + right;
+        index[1][0][lane] = below * width + column[lane];
+        index[1][1][lane] = below * width + right;
+    }
+    for (uint j = 0; j < 2; ++j)
+        for (uint i = 0; i < 2; ++i) load_vectors(environment->texels, 3, index[j][i], &patch->corners[j][i]);
+    const real begin = TO_REAL(LOAD_LANES(row)) - 0.5f;
+    patch->left = TO_REAL(LOAD_LANES(column)) + 0.5f;
+    patch->top = GREATER(begin, (real)(0.0f));
+    patch->height = LESSER(begin + 1.0f, (real)((float)height)) - patch->top;
 }
 
-/// Density, by solid angle, in a texel that is chosen with `probability`, uniform over its angles. `sine` is that of the angle
-/// to the picture's axis, where the density is infinite: it ends at a sine that floats hardly have room for.
-INLINE real texel_density(global const EnvironmentRecord* record, real probability, real sine) {
-    const float scale = ((float)record->width * (float)record->height) * (0.5f * M_1_PI_F * M_1_PI_F);
-    return probability * scale / GREATER(sine, (real)(0x1p-64f));
+/// Radiance `across` and `down` a patch, both in [0, 1].
+INLINE void patch_radiance(const Patch* patch, real across, real down, Vector* radiance) {
+    *radiance = patch->corners[0][0];
+    mix3(across, &patch->corners[0][1], radiance);
+    Vector below = patch->corners[1][0];
+    mix3(across, &patch->corners[1][1], &below);
+    mix3(down, &below, radiance);
+}
+
+/// Density, by solid angle, at a place of a patch that is chosen with `probability`. `sine` is that of the angle to the picture's
+/// axis, where the density is infinite: it ends at a sine that floats hardly have room for.
+INLINE real patch_density(const EnvironmentArrays* environment, const Patch* patch, real probability, const Vector* radiance,
+                          real sine) {
+    const float scale =
+        ((float)environment->record->width * (float)environment->record->height) * (0.5f * M_1_PI_F * M_1_PI_F);
+    real sum = 0.0f;
+    for (uint j = 0; j < 2; ++j)
+        for (uint i = 0; i < 2; ++i) sum += luminance(&patch->corners[j][i]);
+    const real relative = CHOOSE(sum > 0.0f, luminance(radiance) / (0.25f * sum), (real)(1.0f));
+    return relative * (probability * scale / (patch->height * GREATER(sine, (real)(0x1p-64f))));
+}
+
+/// Where in [0, 1) a density that goes linearly from `first` to `last`, both >= 0, has the part u in [0, 1) before it.
+INLINE real sample_linear(real first, real last, real u) {
+    const real greatest = GREATER(first, last);
+    const real a = first / greatest, b = last / greatest;
+    const real place = u * (a + b) / (a + sqrt(fma(u, b * b - a * a, a * a)));
+    return CHOOSE(place >= 0.0f, LESSER(place, (real)(BEFORE_ONE)), u); // both 0: as if the same everywhere
 }
 #endif
 
@@ -84,9 +110,11 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
     const real turn = atan2pi(direction->x, -direction->z);
     const real x = LESSER((0.5f + 0.5f * turn) * right, right);
     const real y = LESSER(atan2pi(sine, direction->y) * bottom, bottom);
+    // The last column of patches goes around to the first texel.
+    const real x_left = x - 0.5f, x_around = CHOOSE(x_left < 0.0f, x_left + right, x_left);
     uint row[LANES], column[LANES];
-    STORE_LANES(TO_WHOLE(LESSER(x, right - 1.0f)), column);
-    STORE_LANES(TO_WHOLE(LESSER(y, bottom - 1.0f)), row);
+    STORE_LANES(TO_WHOLE(LESSER(x_around, right - 1.0f)), column);
+    STORE_LANES(TO_WHOLE(LESSER(y + 0.5f, bottom)), row);
     float of_row[LANES], of_column[LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
         const float2 rows = vload2(0, environment->rows + row[lane]);
@@ -94,8 +122,11 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
         of_row[lane] = rows.y - rows.x;
         of_column[lane] = columns.y - columns.x;
     }
-    *pdf = texel_density(environment->record, LOAD_LANES(of_row) * LOAD_LANES(of_column), sine);
-    picture_radiance(environment, x, y, radiance);
+    Patch patch;
+    load_patch(environment, column, row, &patch);
+    const real across = x_around + 0.5f - patch.left, down = (y - patch.top) / patch.height;
+    patch_radiance(&patch, LESSER(across, (real)(1.0f)), LESSER(down, (real)(1.0f)), radiance);
+    *pdf = patch_density(environment, &patch, LOAD_LANES(of_row) * LOAD_LANES(of_column), radiance, sine);
 #endif
 }
 
@@ -119,18 +150,26 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     uint zero[LANES], row[LANES], column[LANES];
     for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
     real of_row, of_column;
-    choose(environment->rows, height, zero, &v, row, &of_row);
+    choose(environment->rows, height + 1, zero, &v, row, &of_row);
     choose(environment->columns, width, row, &u, column, &of_column);
     (void)normal;
-    const real x = TO_REAL(LOAD_LANES(column)) + u, y = TO_REAL(LOAD_LANES(row)) + v;
+    Patch patch;
+    load_patch(environment, column, row, &patch);
+    real corners[2][2];
+    for (uint j = 0; j < 2; ++j)
+        for (uint i = 0; i < 2; ++i) corners[j][i] = luminance(&patch.corners[j][i]);
+    const real down = sample_linear(corners[0][0] + corners[0][1], corners[1][0] + corners[1][1], v);
+    const real across = sample_linear(fma(down, corners[1][0] - corners[0][0], corners[0][0]),
+                                      fma(down, corners[1][1] - corners[0][1], corners[0][1]), u);
+    const real x = patch.left + across, y = fma(down, patch.height, patch.top);
     real sine, cosine, sine_across, cosine_across;
     sincos_turn(0.5f * (y / (float)height), &sine, &cosine);
     sincos_turn(x / (float)width, &sine_across, &cosine_across);
     // Half a turn off: the middle of the picture is -z.
     const Vector d = {-(sine * sine_across), cosine, sine * cosine_across};
     *direction = d;
-    *pdf = texel_density(environment->record, of_row * of_column, sine);
-    picture_radiance(environment, x, y, radiance);
+    patch_radiance(&patch, across, down, radiance);
+    *pdf = patch_density(environment, &patch, of_row * of_column, radiance, sine);
 #endif
 }
 #endif

@@ -94,7 +94,7 @@ INLINE void punctual_light(const Light* light, const Vector* origin, real probab
     scale3(inverse, &sample->value);
     scale3(inverse, &sample->value);
     scale3(strength, &sample->value);
-    sample->t_max = (real)(BEFORE_END);
+    sample->t_max = (real)(BEFORE_ONE);
     sample->pdf = (real)(0.0f);
 
     const mask distant = light->kind == (int)BOXWOOD_DIRECTIONAL_LIGHT;
@@ -190,7 +190,7 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
     choose3(wanted, &direction, &sample->direction);
     choose3(wanted, &value, &sample->value);
     sample->pdf = CHOOSE(wanted, pdf, sample->pdf);
-    sample->t_max = CHOOSE(wanted, (real)(BEFORE_END), sample->t_max);
+    sample->t_max = CHOOSE(wanted, (real)(BEFORE_ONE), sample->t_max);
 }
 
 /// Density, by solid angle, with which sample_light draws the place that a ray met after `distance` at an angle of `cosine`; 0

@@ -110,8 +110,8 @@ INLINE void sample_square(const Sampler* sampler, whole dimension, real* u, real
     const whole row = cell / columns;
     unit_reals(random_bits(of_dimension, (whole)(sampler->sample)), u, v);
     // A sum may round up to the next cell, and in the last one to 1.
-    *u = LESSER((TO_REAL(cell - row * columns) + *u) / (float)columns, (real)(0x1.fffffep-1f));
-    *v = LESSER((TO_REAL(row) + *v) / (float)rows, (real)(0x1.fffffep-1f));
+    *u = LESSER((TO_REAL(cell - row * columns) + *u) / (float)columns, (real)(BEFORE_ONE));
+    *v = LESSER((TO_REAL(row) + *v) / (float)rows, (real)(BEFORE_ONE));
 #else
     // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a net.
     const whole reversed = reverse_bits((whole)(sampler->sample));

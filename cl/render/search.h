@@ -32,7 +32,7 @@ INLINE void choose(global const float* distributions, uint count, const uint* ro
     }
     const real first = LOAD_LANES(low);
     *probability = LOAD_LANES(high) - first;
-    *u = GREATER(LESSER((*u - first) / *probability, (real)(0x1.fffffep-1f)), (real)(0.0f));
+    *u = GREATER(LESSER((*u - first) / *probability, (real)(BEFORE_ONE)), (real)(0.0f));
 }
 
 #endif

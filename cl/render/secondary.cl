@@ -94,7 +94,7 @@ shadow_rays(global const float* positions, global const uint* triangles, global 
             surface_origin(&surface, &ray.origin);
             subtract3(&light, &ray.origin, &ray.direction);
             ray.t_min = 0.0f;
-            ray.t_max = BEFORE_END;
+            ray.t_max = BEFORE_ONE;
         } else {
             null_rays(&ray);
         }

@@ -12,9 +12,6 @@
 #error "define TRANSFORMS (0 or 1)"
 #endif
 
-// The largest float below 1: the end of a segment is left out.
-#define BEFORE_END 0x1.fffffep-1f
-
 /// Rays, one per lane.
 typedef struct Rays {
     Vector origin, direction;

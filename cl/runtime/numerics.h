@@ -11,4 +11,7 @@
 #define LESSER(a, b) select((b), (a), (a) < (b))
 #define GREATER(a, b) select((b), (a), (a) > (b))
 
+// The largest float below 1.
+#define BEFORE_ONE 0x1.fffffep-1f
+
 #endif

@@ -29,38 +29,41 @@ void append_distribution(const std::vector<double>& weights, std::vector<float>&
     }
 }
 
-/// Mass of the bilinear picture over each texel, but for the solid angle of its row: along an axis a texel is 3/4 its own and
-/// 1/8 each neighbour's. Columns wrap around, rows end.
-std::vector<double> texel_masses(const Environment& e) {
-    std::vector<double> across(e.pixels.size()), masses(e.pixels.size());
-    for (std::size_t y = 0; y < e.height; ++y)
+/// Mean luminance of each patch between the centres of four texels, but for the solid angle of its row: height + 1 rows, the first
+/// and the last half a texel high. Columns wrap around, rows end.
+std::vector<double> patch_means(const Environment& e) {
+    std::vector<double> means;
+    means.reserve(std::size_t{e.height + 1} * e.width);
+    for (std::size_t y = 0; y <= e.height; ++y) {
+        const glm::vec3* above = e.pixels.data() + (y == 0 ? 0 : y - 1) * e.width;
+        const glm::vec3* below = e.pixels.data() + std::min<std::size_t>(y, e.height - 1) * e.width;
         for (std::size_t x = 0; x < e.width; ++x) {
-            const glm::vec3* row = e.pixels.data() + y * e.width;
-            across[y * e.width + x] = 0.75 * luminance(row[x]) + 0.125 * luminance(row[(x + 1) % e.width]) +
-                                      0.125 * luminance(row[(x + e.width - 1) % e.width]);
+            const std::size_t right = (x + 1) % e.width;
+            means.push_back(
+                0.25 * (luminance(above[x]) + luminance(above[right]) + luminance(below[x]) + luminance(below[right])));
         }
-    for (std::size_t y = 0; y < e.height; ++y) {
-        const std::size_t above = y == 0 ? 0 : y - 1, below = std::min<std::size_t>(y + 1, e.height - 1);
-        for (std::size_t x = 0; x < e.width; ++x)
-            masses[y * e.width + x] = 0.75 * across[y * e.width + x] + 0.125 * across[above * e.width + x] +
-                                      0.125 * across[below * e.width + x];
     }
-    return masses;
+    return means;
+}
+
+/// cos(first) - cos(last), without cancellation.
+double cosine_difference(double first, double last) {
+    return 2.0 * std::sin(0.5 * (last - first)) * std::sin(0.5 * (last + first));
 }
 
 void upload_picture(Device& device, const Environment& e, EnvironmentMap& map) {
-    const std::vector<double> masses = texel_masses(e);
+    const std::vector<double> means = patch_means(e);
     std::vector<float> rows, columns, texels;
-    std::vector<double> row_masses(e.height);
-    columns.reserve(masses.size() + e.height);
-    for (std::size_t y = 0; y < e.height; ++y) {
-        const auto first = masses.begin() + static_cast<std::ptrdiff_t>(y * e.width);
+    std::vector<double> row_masses(std::size_t{e.height} + 1);
+    columns.reserve(means.size() + e.height + 1);
+    for (std::size_t y = 0; y <= e.height; ++y) {
+        const auto first = means.begin() + static_cast<std::ptrdiff_t>(y * e.width);
         const std::vector<double> row(first, first + e.width);
         append_distribution(row, columns);
-        const double step = std::numbers::pi / e.height, top = static_cast<double>(y) * step;
-        const double solid_angle =
-            2.0 * std::sin(0.5 * step) * std::sin(top + 0.5 * step); // cos(top) - cos(top + step)
-        for (const double mass : row) row_masses[y] += mass * solid_angle;
+        const double step = std::numbers::pi / e.height;
+        const double top = step * std::max(static_cast<double>(y) - 0.5, 0.0);
+        const double bottom = step * std::min(static_cast<double>(y) + 0.5, static_cast<double>(e.height));
+        for (const double mean : row) row_masses[y] += mean * cosine_difference(top, bottom);
     }
     append_distribution(row_masses, rows);
     texels.reserve(3 * e.pixels.size());

@@ -16,8 +16,8 @@ struct EnvironmentMap {
     EnvironmentKind kind = EnvironmentKind::none;
     Buffer<EnvironmentRecord> record;
     Buffer<float> texels;  ///< 3 per texel.
-    Buffer<float> rows;    ///< height + 1 values from 0 to 1: a row is chosen with the difference.
-    Buffer<float> columns; ///< The same within each row: height * (width + 1).
+    Buffer<float> rows;    ///< height + 2 values from 0 to 1: a row of patches is chosen with the difference.
+    Buffer<float> columns; ///< The same within each row: (height + 1) * (width + 1).
 };
 
 /// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture whose

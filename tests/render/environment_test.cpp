@@ -92,6 +92,8 @@ Environment random_environment(std::uint32_t width, std::uint32_t height) {
     return e;
 }
 
+double luminance(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
 std::vector<glm::vec2> grid_points(int across) {
     std::vector<glm::vec2> points;
     for (int j = 0; j < across; ++j)
@@ -193,6 +195,21 @@ TEST_CASE("environment: drawing by the picture gives the picture's light") {
     for (int c = 0; c < 3; ++c) CHECK(std::abs(mean[c] / expected[c] - 1) < (small_sizes() ? 0.05 : 5e-3));
 }
 
+TEST_CASE("environment: places are drawn by their luminance, between texels too") {
+    // A grey picture, so that what is drawn differs by the sine within a row alone, which 64 rows make small.
+    Environment e = random_environment(32, 64);
+    for (glm::vec3& pixel : e.pixels) pixel = glm::vec3(pixel.x);
+    const Answers answers = ask(e, {}, grid_points(small_sizes() ? 16 : 128));
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < answers.drawn.size(); ++i) {
+        const double value = answers.light[i].x / answers.drawn[i].w;
+        sum += value;
+        squares += value * value;
+    }
+    const double count = double(answers.drawn.size());
+    CHECK(squares * count / (sum * sum) - 1 < 0.01);
+}
+
 TEST_CASE("environment: a picture of ones has about the density of the sphere, the constant that of the hemisphere") {
     Environment ones;
     ones.width = 32;
@@ -229,14 +246,19 @@ TEST_CASE("environment: light and density at the poles and beside them") {
         const glm::dvec3 d(directions[i]);
         CAPTURE(d.x);
         CAPTURE(d.y);
-        const std::size_t y = d.y > 0 ? 0 : 7;
+        // The row of patches beside a pole has one row of texels at both sides, and half the height.
+        const std::size_t y = d.y > 0 ? 0 : 7, patch_row = d.y > 0 ? 0 : 8;
         const double x = 8 + 8 * std::atan2(d.x, -d.z) / pi, sine = std::hypot(d.x, d.z);
-        const auto column = static_cast<std::size_t>(x), left = static_cast<std::size_t>(x + 15.5) % 16;
-        const glm::dvec3 light = glm::mix(glm::dvec3(e.pixels[16 * y + left]),
-                                          glm::dvec3(e.pixels[16 * y + (left + 1) % 16]), glm::fract(x - 0.5));
+        const auto left = static_cast<std::size_t>(x + 15.5) % 16;
+        const glm::dvec3 corners[2] = {glm::dvec3(e.pixels[16 * y + left]),
+                                       glm::dvec3(e.pixels[16 * y + (left + 1) % 16])};
+        const glm::dvec3 light = glm::mix(corners[0], corners[1], glm::fract(x - 0.5));
         CHECK(glm::distance(glm::dvec3(answers.lookups[i]), light) <= 1e-5 * glm::length(light) + 1e-5);
-        const double probability = (rows[y + 1] - rows[y]) * (columns[17 * y + column + 1] - columns[17 * y + column]);
-        CHECK(answers.lookups[i].w == doctest::Approx(probability * 128 / (2 * pi * pi * sine)).epsilon(1e-6));
+        const double probability = (rows[patch_row + 1] - rows[patch_row]) *
+                                   (columns[17 * patch_row + left + 1] - columns[17 * patch_row + left]);
+        const double mean = 0.5 * (luminance(corners[0]) + luminance(corners[1]));
+        const double relative = mean > 0 ? luminance(light) / mean : 1;
+        CHECK(std::abs(answers.lookups[i].w / (probability * 128 / (pi * pi * sine)) - relative) <= 1e-5);
     }
     // There the density has no end, and no direction is drawn; numbers stay finite, as they do for what is no direction.
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
