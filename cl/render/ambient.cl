@@ -81,19 +81,15 @@ INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* c
 }
 
 #if LIGHTS
-/// Shadow rays towards punctual lights chosen by power, and what arrives along them when they are free. Returns where there are
-/// any.
-INLINE mask find_light(global const LightRecord* lights, global const float* distribution, uint count,
-                           const Vertex* vertex, real choice, Rays* rays, Vector* light) {
-    // Triangles that emit come behind, and have the rest of the distribution.
-    const float all = distribution[count];
-    choice *= all;
+/// Shadow rays towards punctual lights, and what arrives along them when they are free. Returns where there are any.
+INLINE mask find_light(const LightArrays* lights, const Vertex* vertex, real choice, Rays* rays, Vector* light) {
     real probability;
-    uint index[LANES], row[LANES];
-    for (uint lane = 0; lane < LANES; ++lane) row[lane] = 0;
-    choose(distribution, count, row, &choice, index, &probability);
+    uint index[LANES];
+    LightShares shares;
+    light_shares(&lights->tree, 0.0f, &vertex->origin, &shares);
+    choose_by_shares(&lights->tree, &shares, &vertex->origin, &choice, index, &probability);
     LightSample sample;
-    sample_punctual(lights, index, &vertex->origin, probability / all, &sample);
+    sample_punctual(lights->records, index, &vertex->origin, probability, &sample);
     const real cosine = dot3(&sample.direction, &vertex->point.normal);
     const Rays shadow = {vertex->origin, sample.segment, (real)(0.0f), sample.t_max};
     *rays = shadow;
@@ -121,9 +117,8 @@ typedef struct AmbientSettings {
 } AmbientSettings;
 
 /// The bounces of paths, `index` within the batch, whose rays along `direction` met `hits`; `throughput` is given.
-INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* lights, global const float* light_distribution,
-                        uint light_count, const AmbientSettings* settings, const uint* index, const Vector* direction,
-                        const Hits* hits, Bounce* result) {
+INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, const AmbientSettings* settings, const uint* index,
+                        const Vector* direction, const Hits* hits, Bounce* result) {
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     result->seen = result->light = result->around = dark;
     null_rays(&result->shadow_rays);
@@ -143,13 +138,10 @@ INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* ligh
 #if LIGHTS
         real choice, unused;
         sample_square(&sampler, (whole)(dimension + 1), &choice, &unused);
-        lit = reflects & find_light(lights, light_distribution, light_count, &vertex, choice, &result->shadow_rays,
-                                        &result->light);
+        lit = reflects & find_light(lights, &vertex, choice, &result->shadow_rays, &result->light);
         multiply3(&result->throughput, &result->light, &result->light);
 #else
         (void)lights;
-        (void)light_distribution;
-        (void)light_count;
 #endif
         ambient_light(settings->coefficients, &vertex.point.normal, &result->around);
         multiply3(&result->throughput, &result->around, &result->around);
@@ -169,7 +161,7 @@ INLINE void find_bounce(const SceneArrays* scene, global const LightRecord* ligh
 /// occlusion and the next surface. At the first bounce direct gets what is seen as it is, indirect and ambient 0. `next_rays` may
 /// be `rays`. A work-item takes `length` consecutive paths of the `count`. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const float* light_distribution, uint light_count,
+ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes, uint light_count,
                global const EnvironmentRecord* environment, global const float* environment_texels,
                global const float* environment_rows, global const float* environment_columns, global const float* coefficients,
                global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint first_pixel, uint bounce,
@@ -177,6 +169,11 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
                global Ray* next_rays, global Ray* shadow_rays, global float* pending, global float* direct,
                global float* indirect, global float* ambient) {
     const SceneArrays scene = SCENE_ARRAYS;
+#if LIGHTS
+    const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
+#else
+    const LightArrays light_arrays = {lights, {light_nodes, 0, BOXWOOD_NONE, BOXWOOD_NONE}};
+#endif
 #if ENVIRONMENT
     const EnvironmentArrays around = {environment,
 #if ENVIRONMENT == 2
@@ -200,7 +197,7 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
             spread3((float3)(1.0f), &result.throughput);
         else
             load_vectors(throughputs, 3, index, &result.throughput);
-        find_bounce(&scene, lights, light_distribution, light_count, &settings, index, &view.direction, &met, &result);
+        find_bounce(&scene, &light_arrays, &settings, index, &view.direction, &met, &result);
         store_vectors(&result.throughput, throughputs, 3, index, used);
         store_vectors(&result.light, pending, 6, index, used);
         store_vectors(&result.around, pending + 3, 6, index, used);

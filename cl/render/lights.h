@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Light from the lights of a scene: one chosen by power, a point on it, and with what density. Nothing depends on how large the
-// scene is. Macros: render/shading_point.h, runtime/real.h.
+// Light from the lights of a scene: one chosen for the place, a point on it, and with what density. Nothing depends on how large
+// the scene is. Macros: render/shading_point.h, runtime/real.h.
 //
 // ALPHA     1: some surface lets light pass
 // EMISSION  1: some triangles are lights
 #ifndef BOXWOOD_RENDER_LIGHTS_H
 #define BOXWOOD_RENDER_LIGHTS_H
-#include "render/search.h"
+#include "render/light_tree.h"
 #include "render/shading_point.h"
 #include "runtime/vector.h"
 #include "shared/light.h"
@@ -18,8 +18,7 @@
 /// The lights of an Appearance.
 typedef struct LightArrays {
     global const LightRecord* records;
-    global const float* distribution;
-    uint count; ///< > 0
+    LightTree tree;
 } LightArrays;
 
 /// Light on a point from one place.
@@ -193,13 +192,14 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
     sample->t_max = CHOOSE(wanted, (real)(BEFORE_ONE), sample->t_max);
 }
 
-/// Density, by solid angle, with which sample_light draws the place that a ray met after `distance` at an angle of `cosine`; 0
-/// where a lane's triangle is no light. O(log lights): triangles are ordered by instance and primitive, after the lights without
-/// extent, which have no instance.
-INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const uint* primitive, real distance, real cosine) {
+/// Density, by solid angle, with which sample_light draws, for `origin`, the place that a ray from there met after `distance` at an
+/// angle of `cosine`, but for the share of lights that are near; 0 where a lane's triangle is no light. O(log lights): triangles are
+/// ordered by instance and primitive, after the lights without extent, which have no instance.
+INLINE real triangle_pdf(const LightArrays* lights, const Vector* origin, const uint* instance, const uint* primitive,
+                         real distance, real cosine) {
     uint low[LANES];
     for (uint lane = 0; lane < LANES; ++lane) low[lane] = 0;
-    for (uint left = lights->count; left > 1; left -= left >> 1) {
+    for (uint left = lights->tree.inner + 1; left > 1; left -= left >> 1) {
         const uint step = left >> 1;
         for (uint lane = 0; lane < LANES; ++lane) {
             // BOXWOOD_NONE + 1 is 0: before all others.
@@ -209,30 +209,47 @@ INLINE real triangle_pdf(const LightArrays* lights, const uint* instance, const 
             low[lane] += key <= wanted ? step : 0u;
         }
     }
-    float probabilities[LANES], sizes[LANES];
+    int is_light[LANES];
+    float sizes[LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
         global const LightRecord* light = lights->records + low[lane];
-        const float probability = lights->distribution[low[lane] + 1] - lights->distribution[low[lane]];
         const bool found = light->kind == BOXWOOD_TRIANGLE_LIGHT && light->instance == instance[lane] &&
                            light->primitive == primitive[lane];
-        probabilities[lane] = found ? probability : 0.0f;
+        is_light[lane] = found ? -1 : 0;
         sizes[lane] = light->inverse_size;
+        low[lane] = found ? low[lane] : lights->tree.inner; // the last one, a triangle if there is any
     }
-    const real probability = LOAD_LANES(probabilities), far = distance * LOAD_LANES(sizes);
-    const real density = probability * (far * far / cosine);
+    const mask found = LOAD_LANES(is_light) != 0;
+    if (!ANY(found)) return (real)(0.0f);
+    const real far = distance * LOAD_LANES(sizes);
+    const real density = near_probability(&lights->tree, low, origin) * (far * far / cosine);
     // As where it is drawn: what has no finite density is left to the surface.
-    return CHOOSE((cosine > 0.0f) & (probability > 0.0f) & (density < INFINITY), density, (real)(0.0f));
+    return CHOOSE(found & (cosine > 0.0f) & (density > 0.0f) & (density < INFINITY), density, (real)(0.0f));
 }
 #endif
 
-/// Light on `origin`; `choice` in [0, 1) takes the light, u and v the point on it. All lights have `share` of the samples.
-INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const Vector* origin, real choice, real u, real v,
-                         float share, LightSample* sample) {
-    uint zero[LANES], index[LANES];
-    for (uint lane = 0; lane < LANES; ++lane) zero[lane] = 0;
+/// Chooses among all lights by u in [0, shares->distant + shares->near), which becomes what is left of it, uniform in [0, 1); also the
+/// light's probability among all samples. Any u gives a light.
+INLINE void choose_by_shares(const LightTree* tree, const LightShares* shares, const Vector* origin, real* u, uint* index,
+                             real* probability) {
+    mask distant = *u < shares->distant;
+    if (tree->distant == BOXWOOD_NONE || tree->near == BOXWOOD_NONE) distant = (mask)(tree->near == BOXWOOD_NONE ? -1 : 0);
+    const real share = CHOOSE(distant, shares->distant, shares->near);
+    *u = smaller(larger(CHOOSE(distant, *u, *u - shares->distant) / share, (real)(0.0f)), (real)(BEFORE_ONE));
+    uint root[LANES];
+    STORE_LANES(CHOOSE(distant, (whole)(tree->distant), (whole)(tree->near)), root);
+    choose_light(tree, root, origin, u, index, probability);
+    *probability *= share;
+}
+
+/// Light on `origin`: u, see choose_by_shares, and v in [0, 1), a point of one pattern, take the light and the place on it, so that
+/// the lights share the pattern's evenness; `low_bits` in [0, 1) is what u loses where lights are many.
+INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const LightShares* shares, const Vector* origin,
+                         real u, real v, real low_bits, LightSample* sample) {
+    uint index[LANES];
     real probability;
-    choose(lights->distribution, lights->count, zero, &choice, index, &probability);
-    probability *= share;
+    choose_by_shares(&lights->tree, shares, origin, &u, index, &probability);
+    u = smaller(fma(low_bits, smaller(0x1p-24f / probability, (real)(1.0f)), u), (real)(BEFORE_ONE));
     Light light;
     load_lights(lights->records, index, &light);
 #if EMISSION

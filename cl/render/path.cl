@@ -84,20 +84,20 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
     met &= NOT(passes);
 #endif
     Vector light;
-    surface_light(world, &vertex.point, &direction, hits, first, paths->pdf, &light);
+    surface_light(world, &vertex.point, rays, hits, first, paths->pdf, &light);
     choose3(met, &light, &gathered->light);
 
     mask goes_on = met & NOT(vertex.point.unlit) & (paths->bounces < settings->depth) & is_solid(&vertex.point.surface);
     if (ANY(goes_on)) {
         make_vertex(&direction, &vertex);
         const whole dimension = paths->bounces * BOUNCE_DIMENSIONS;
-        real light_choice, lobe_choice;
-        sample_square(&sampler, dimension + CHOICE_DIMENSION, &light_choice, &lobe_choice);
+        real low_bits, lobe_choice;
+        sample_square(&sampler, dimension + CHOICE_DIMENSION, &low_bits, &lobe_choice);
 #if NEXT_EVENT
         real u, v;
         sample_square(&sampler, dimension + LIGHT_DIMENSION, &u, &v);
         gathered->has_shadow =
-            goes_on & next_event(world, &vertex, light_choice, u, v, &gathered->shadow_rays, &gathered->shadow);
+            goes_on & next_event(world, &vertex, u, v, low_bits, &gathered->shadow_rays, &gathered->shadow);
 #endif
         goes_on &= scatter_paths(&vertex, settings, &sampler, dimension, lobe_choice, width, paths, rays);
     }
@@ -118,7 +118,7 @@ INLINE mask follow(const PathWorld* world, const PathSettings* settings, global 
     const mask missed = NOT(hits->some);
     if (ANY(missed)) {
         Vector light;
-        sky_light(world, &rays->direction, paths->bounces == 0, paths->pdf, &light);
+        sky_light(world, rays, paths->bounces == 0, paths->pdf, &light);
         choose3(missed, &light, &gathered->light);
     }
     mask goes_on = (mask)(0), met = hits->some;
@@ -225,7 +225,7 @@ INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
 /// moved to its front, their number is kept[slice], and kept[slices] = 0. `next_rays` may be `rays`; a path has one pixel and a
 /// pixel one path. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
-    SCENE_PARAMETERS, global const LightRecord* lights, global const float* light_distribution, uint light_count,
+    SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes, uint light_count,
     global const EnvironmentRecord* environment, global const float* environment_texels, global const float* environment_rows,
     global const float* environment_columns, global const CameraRecord* camera, ulong seed, uint sample, uint samples,
     uint depth, uint first_pixel, uint first, global const Ray* rays, global const Hit* hits, uint count, uint length,
@@ -237,7 +237,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
     const SceneArrays scene = SCENE_ARRAYS;
     world.scene = scene;
 #if LIGHTS
-    const LightArrays light_arrays = {lights, light_distribution, light_count};
+    const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
     world.lights = light_arrays;
 #endif
 #if ENVIRONMENT

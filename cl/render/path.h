@@ -20,12 +20,9 @@
 // Whether the environment is sampled towards, and whether anything is.
 #define SAMPLE_ENVIRONMENT (ENVIRONMENT && STRATEGY != 2)
 #define NEXT_EVENT (LIGHTS || SAMPLE_ENVIRONMENT)
-// The share of the samples that the lights have; the environment has the others.
-#define LIGHT_SHARE (SAMPLE_ENVIRONMENT ? 0.5f : 1.0f)
-#define ENVIRONMENT_SHARE (LIGHTS ? 0.5f : 1.0f)
 
 // Dimensions of the sampler: four for each bounce, and one for each surface with alpha.
-#define CHOICE_DIMENSION 0u // light and lobe
+#define CHOICE_DIMENSION 0u // lobe, and what the choice of a light takes of the digits of its point
 #define LIGHT_DIMENSION 1u
 #define SCATTER_DIMENSION 2u
 #define ROULETTE_DIMENSION 3u
@@ -71,13 +68,30 @@ INLINE real power_heuristic(real pdf, real other) {
     return 1.0f / (1.0f + ratio * ratio);
 }
 
+/// How samples towards light are divided at a place.
+INLINE void find_shares(const PathWorld* world, const Vector* place, LightShares* shares) {
+    const LightShares sky = {(real)(SAMPLE_ENVIRONMENT ? 1.0f : 0.0f), (real)(0.0f), (real)(0.0f)};
+    *shares = sky;
+#if LIGHTS && SAMPLE_ENVIRONMENT
+    light_shares(&world->lights.tree, world->environment.record->irradiance, place, shares);
+#elif LIGHTS
+    light_shares(&world->lights.tree, 0.0f, place, shares);
+#endif
+    (void)world;
+    (void)place;
+}
+
 /// Radiance that comes along rays which met nothing, by its share among the strategies.
-INLINE void sky_light(const PathWorld* world, const Vector* direction, mask first, real pdf, Vector* light) {
+INLINE void sky_light(const PathWorld* world, const Rays* rays, mask first, real pdf, Vector* light) {
 #if ENVIRONMENT
     real other;
-    environment_light(&world->environment, direction, light, &other);
+    environment_light(&world->environment, &rays->direction, light, &other);
 #if STRATEGY == 0
-    scale3(CHOOSE(first, (real)(1.0f), power_heuristic(pdf, ENVIRONMENT_SHARE * other)), light);
+    if (ANY(NOT(first))) {
+        LightShares shares;
+        find_shares(world, &rays->origin, &shares);
+        scale3(CHOOSE(first, (real)(1.0f), power_heuristic(pdf, shares.environment * other)), light);
+    }
 #elif STRATEGY == 1
     scale3(CHOOSE(first, (real)(1.0f), (real)(0.0f)), light);
 #endif
@@ -85,21 +99,23 @@ INLINE void sky_light(const PathWorld* world, const Vector* direction, mask firs
     const Vector none = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     *light = none;
     (void)world;
-    (void)direction;
+    (void)rays;
 #endif
     (void)first;
     (void)pdf;
 }
 
 /// Radiance that surfaces send back along rays, by its share among the strategies.
-INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Vector* direction, const Hits* hits,
-                          mask first, real pdf, Vector* light) {
+INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Rays* rays, const Hits* hits, mask first,
+                          real pdf, Vector* light) {
     *light = point->emission;
 #if EMISSION && LIGHTS && STRATEGY != 2
     const mask shared = bright(light) & NOT(first);
     if (ANY(shared)) {
-        const real cosine = -dot3(direction, &point->surface.normal);
-        const real other = LIGHT_SHARE * triangle_pdf(&world->lights, hits->instance, hits->primitive, hits->t, cosine);
+        const real cosine = -dot3(&rays->direction, &point->surface.normal);
+        LightShares shares;
+        find_shares(world, &rays->origin, &shares);
+        const real other = shares.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
 #if STRATEGY == 0
         scale3(CHOOSE(shared, power_heuristic(pdf, other), (real)(1.0f)), light);
 #else
@@ -109,7 +125,7 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
 #endif
     choose3(point->unlit, &point->base_color, light);
     (void)world;
-    (void)direction;
+    (void)rays;
     (void)hits;
     (void)first;
     (void)pdf;
@@ -129,19 +145,22 @@ Spot spot;
 }
 
 #if NEXT_EVENT
-/// Shadow rays and the light that they stand for. Returns where there is one.
-INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real choice, real u, real v, Rays* rays, Vector* light) {
+/// Shadow rays and the light that they stand for, chosen by u and v (see sample_light). Returns where there is one.
+INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, real v, real low_bits, Rays* rays, Vector* light) {
+    LightShares shares;
+    find_shares(world, &vertex->origin, &shares);
     LightSample sample;
 #if LIGHTS
-    const real light_choice = SAMPLE_ENVIRONMENT ? 2.0f * choice : choice;
-    sample_light(&world->scene, &world->lights, &vertex->origin,
-                 CHOOSE(light_choice < 1.0f, light_choice, (real)(0.0f)), u, v, LIGHT_SHARE, &sample);
+    sample_light(&world->scene, &world->lights, &shares, &vertex->origin, u - shares.environment, v, low_bits, &sample);
+#else
+    (void)low_bits;
 #endif
 #if SAMPLE_ENVIRONMENT
-    const mask distant = choice >= (LIGHTS ? LIGHT_SHARE : 0.0f);
+    const mask distant = (u < shares.environment) | (mask)(LIGHTS ? 0 : -1);
     LightSample sky;
-    sample_environment(&world->environment, &vertex->point.surface.normal, u, v, &sky.direction, &sky.value, &sky.pdf);
-    sky.pdf *= ENVIRONMENT_SHARE;
+    sample_environment(&world->environment, &vertex->point.surface.normal, smaller(u / shares.environment, (real)(BEFORE_ONE)), v,
+                       &sky.direction, &sky.value, &sky.pdf);
+    sky.pdf *= shares.environment;
     scale3(1.0f / sky.pdf, &sky.value);
 #if LIGHTS
     choose3(distant, &sky.direction, &sample.segment);

@@ -10,7 +10,8 @@ typedef struct EnvironmentRecord {
     float radiance[3]; ///< Without a picture.
     uint width;        ///< 0: no picture.
     uint height;
-    uint reserved[3]; ///< Zero.
+    float irradiance; ///< From the half of all directions that a surface sees, in the mean.
+    uint reserved[2]; ///< Zero.
 } EnvironmentRecord;
 BOXWOOD_SHARED_SIZE(EnvironmentRecord, 32)
 

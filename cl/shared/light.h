@@ -32,5 +32,20 @@ typedef struct LightRecord {
 } LightRecord;
 BOXWOOD_SHARED_SIZE(LightRecord, 96)
 
+/// A node of the tree over lights: what those below it may send to a place.
+typedef struct LightNode {
+    float center[3]; ///< World space.
+    float radius;    ///< Of a sphere that holds the lights.
+    float axis[3];   ///< Unit vector: they shine within a cone about it, and from there on as the cosine.
+    float amplitude; ///< Root of the intensity along the axis, or, when distant, of the irradiance; 0: no light.
+    float spread_cosine; ///< Of the angle from the axis to the cone's edge,
+    float spread_sine;   ///< and its sine.
+    uint distant;        ///< 1: directional lights alone, which send the same everywhere.
+    uint children[2];    ///< Indices of nodes; of a leaf twice its own.
+    uint parent;         ///< Index of a node; of the root its own, 0.
+    uint reserved[2];    ///< Zero.
+} LightNode;
+BOXWOOD_SHARED_SIZE(LightNode, 64)
+
 BOXWOOD_SHARED_END
 #endif

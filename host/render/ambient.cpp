@@ -8,6 +8,7 @@
 
 #include "boxwood/trace.hpp"
 #include "render/environment.hpp"
+#include "render/light_tree.hpp"
 #include "render/scene_arrays.hpp"
 
 namespace boxwood {
@@ -83,11 +84,16 @@ AmbientLight make_ambient_light(Device& device, const Appearance& appearance, co
         for (int c = 0; c < 3; ++c) coefficients.push_back(static_cast<float>(coefficient[c]));
     light.coefficients = upload(device, coefficients, "ambient light");
     if (appearance.lights.size() == 0) return light;
-    const std::vector<LightRecord> lights = download(device, appearance.lights);
-    const auto end = std::find_if(lights.begin(), lights.end(),
-                                  [](const LightRecord& record) { return record.kind == BOXWOOD_TRIANGLE_LIGHT; });
-    const auto punctual = static_cast<std::uint32_t>(end - lights.begin());
-    if (download_element(device, appearance.light_distribution, punctual) > 0.0f) light.punctual = punctual;
+    std::vector<LightBounds> bounds;
+    bool bright = false;
+    for (const LightRecord& record : download(device, appearance.lights)) {
+        if (record.kind == BOXWOOD_TRIANGLE_LIGHT) break; // they come last
+        bounds.push_back(punctual_bounds(record));
+        bright |= bounds.back().strength > 0.0;
+    }
+    if (!bright) return light;
+    light.punctual = static_cast<std::uint32_t>(bounds.size());
+    light.nodes = upload(device, light_tree(bounds), "punctual lights");
     return light;
 }
 
@@ -106,11 +112,11 @@ void trace_ambient(Device& device, const World& world, const AmbientLight& aroun
             const BufferView<const Ray> rays = bounce == 0 ? primary.rays : BufferView<const Ray>(paths.rays);
             const BufferView<const Hit> hits = bounce == 0 ? primary.hits : BufferView<const Hit>(paths.hits);
             launch_shading(device, {"render/ambient.cl", "ambient_bounce", defines}, "ambient bounce", slices.slices,
-                           world.geometry, appearance, appearance.lights, appearance.light_distribution,
-                           around.punctual, map.record, map.texels, map.rows, map.columns, around.coefficients,
-                           primary.camera, options.seed, sample, options.samples, primary.first_pixel, bounce, rays,
-                           hits, count, slices.length, paths.throughputs, paths.rays, paths.shadow_rays, paths.pending,
-                           light.direct, light.indirect, light.ambient);
+                           world.geometry, appearance, appearance.lights, around.nodes, around.punctual, map.record,
+                           map.texels, map.rows, map.columns, around.coefficients, primary.camera, options.seed, sample,
+                           options.samples, primary.first_pixel, bounce, rays, hits, count, slices.length,
+                           paths.throughputs, paths.rays, paths.shadow_rays, paths.pending, light.direct,
+                           light.indirect, light.ambient);
         }
         if (options.depth == 0) return fill(device, light.ao, 1.0f);
         if (around.punctual > 0) {

@@ -17,7 +17,8 @@ std::array<glm::dvec3, 9> ambient_coefficients(const Environment& environment);
 /// What the model reads beside the World.
 struct AmbientLight {
     Buffer<float> coefficients; ///< Of ambient_coefficients.
-    std::uint32_t punctual = 0; ///< Lights of the Appearance that are punctual; 0 also when they have no power.
+    std::uint32_t punctual = 0; ///< Lights of the Appearance that are punctual; 0 also when they give no light.
+    Buffer<LightNode> nodes;    ///< The tree over them.
 };
 AmbientLight make_ambient_light(Device& device, const Appearance& appearance, const Environment& environment);
 

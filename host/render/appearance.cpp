@@ -68,7 +68,7 @@ Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRe
         {"materials", materials.size(), sizeof(MaterialRecord)},
         {"textures", textures.records().size(), sizeof(TextureRecord)},
         {"texels", textures.texel_count(), sizeof(std::uint32_t)},
-        {"lights", light_limit(scene, needs), sizeof(LightRecord) + sizeof(float)}};
+        {"lights", light_limit(scene, needs), sizeof(LightRecord) + 2 * sizeof(LightNode)}};
     check_fits(device, buffers, "what shading reads");
 
     Appearance appearance;
@@ -97,7 +97,7 @@ Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRe
     upload_some(textures.records(), "textures", appearance.textures);
     const LightList lights = light_list(scene, needs, emission);
     upload_some(lights.records, "lights", appearance.lights);
-    upload_some(lights.distribution, "light distribution", appearance.light_distribution);
+    upload_some(lights.nodes, "light tree", appearance.light_nodes);
     return appearance;
 }
 

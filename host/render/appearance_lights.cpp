@@ -6,14 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "render/light_tree.hpp"
 #include "scene/materials_in_use.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 void store(const glm::dvec3& v, float (&target)[3]) {
     for (int axis = 0; axis < 3; ++axis) target[axis] = static_cast<float>(v[axis]);
@@ -33,14 +32,13 @@ double clearance(const glm::dmat4& to_world, const glm::dvec3& largest, const gl
 
 double mean(const glm::dvec3& color) { return (color.x + color.y + color.z) / 3.0; }
 
-/// The power of each light beside its record.
+/// The bounds of each light beside its record.
 class Lights {
 public:
     Lights(const Scene& scene, const std::vector<glm::dvec3>& emission) : scene_(scene), emission_(emission) {}
 
     void add_punctual() {
-        const double radius = scene_radius();
-        for (const Light& light : scene_.lights) add(light, pi * radius * radius);
+        for (const Light& light : scene_.lights) add(light);
     }
 
     void add_triangles() {
@@ -56,8 +54,9 @@ public:
     }
 
     LightList take() {
-        std::vector<float> values = distribution();
-        return {std::move(records_), std::move(values)};
+        if (records_.empty()) return {};
+        std::vector<LightNode> nodes = light_tree(bounds_);
+        return {std::move(records_), std::move(nodes)};
     }
 
 private:
@@ -71,49 +70,28 @@ private:
         return emitting;
     }
 
-    /// Half the diagonal of a box around the boxes of all instances.
-    double scene_radius() const {
-        std::vector<MeshBounds> bounds;
-        for (const Mesh& mesh : scene_.meshes) bounds.push_back(mesh_bounds(mesh.positions));
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-        for (const Instance& instance : scene_.instances)
-            for (int corner = 0; corner < 8; ++corner) {
-                const MeshBounds& box = bounds[instance.mesh];
-                const glm::dvec4 local(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                       corner & 4 ? box.max.z : box.min.z, 1.0);
-                const glm::dvec3 world(glm::dmat4(instance.transform) * local);
-                low = glm::min(low, world);
-                high = glm::max(high, world);
-            }
-        return scene_.instances.empty() ? 0.0 : 0.5 * glm::length(high - low);
-    }
-
-    void add(const Light& light, double disc) {
+    void add(const Light& light) {
         LightRecord record{};
         store(light.position, record.position);
         store(light.direction, record.direction);
         store(light.intensity, record.intensity);
         record.range = light.range;
         record.instance = record.primitive = BOXWOOD_NONE;
-        double share = 4.0 * pi; // of the intensity
         if (light.kind == LightKind::point) {
             record.kind = BOXWOOD_POINT_LIGHT;
         } else if (light.kind == LightKind::directional) {
             record.kind = BOXWOOD_DIRECTIONAL_LIGHT;
-            share = disc;
         } else {
             record.kind = BOXWOOD_SPOT_LIGHT;
             const double inner = light.inner_cone, outer = light.outer_cone;
             // 1 - cos and differences of cosines, without cancellation.
-            const double inside = 2.0 * std::pow(std::sin(0.5 * inner), 2.0);
             const double within = 2.0 * std::pow(std::sin(0.5 * outer), 2.0);
             const double fading = 2.0 * std::sin(0.5 * (outer + inner)) * std::sin(0.5 * (outer - inner));
             record.cone_scale = static_cast<float>(1.0 / std::sqrt(within));
             record.cone_edge = static_cast<float>(within / fading);
-            share = 2.0 * pi * (inside + fading / 3.0);
         }
         records_.push_back(record);
-        powers_.push_back(mean(glm::dvec3(light.intensity)) * share);
+        bounds_.push_back(punctual_bounds(record));
     }
 
     void add(const Mesh& mesh, const glm::dmat4& to_world, const glm::dmat3& normal_to_world, std::uint32_t instance,
@@ -145,40 +123,21 @@ private:
         record.primitive = triangle;
         record.two_sided = material.double_sided ? 1u : 0u;
         records_.push_back(record);
-        powers_.push_back(pi * mean(emission_[index]) * area * (material.double_sided ? 2.0 : 1.0));
+        LightBounds bounds;
+        glm::dvec3 placed[3];
+        for (int i = 0; i < 3; ++i) placed[i] = glm::dvec3(to_world * glm::dvec4(vertex[i], 1.0));
+        bounds.low = glm::min(placed[0], glm::min(placed[1], placed[2]));
+        bounds.high = glm::max(placed[0], glm::max(placed[1], placed[2]));
+        bounds.axis = normal / length;
+        bounds.spread = material.double_sided ? std::numbers::pi : 0.0;
+        bounds.strength = mean(emission_[index]) * area;
+        bounds_.push_back(bounds);
     }
-
-    /// By power, but for what punctual lights have together: a lamp in a room may have next to nothing of the power of a sun
-    /// that does not reach it, and no reflected ray finds it.
-    std::vector<float> distribution() const {
-        std::vector<float> values;
-        if (powers_.empty()) return values;
-        double total = 0.0;
-        std::size_t bright = 0;
-        for (std::size_t i = 0; i < powers_.size(); ++i) {
-            total += powers_[i];
-            bright += bright_punctual(i) ? 1 : 0;
-        }
-        const bool even = !(total > 0.0);
-        const double spread = bright > 0 ? 0x1p-4 : 0.0;
-        values.reserve(powers_.size() + 1);
-        values.push_back(0.0f);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < powers_.size(); ++i) {
-            sum += even ? 1.0 / static_cast<double>(powers_.size()) : (1.0 - spread) * powers_[i] / total;
-            if (bright_punctual(i)) sum += spread / static_cast<double>(bright);
-            values.push_back(std::min(static_cast<float>(sum), 1.0f));
-        }
-        values.back() = 1.0f;
-        return values;
-    }
-
-    bool bright_punctual(std::size_t i) const { return records_[i].kind != BOXWOOD_TRIANGLE_LIGHT && powers_[i] > 0.0; }
 
     const Scene& scene_;
     const std::vector<glm::dvec3>& emission_;
     std::vector<LightRecord> records_;
-    std::vector<double> powers_;
+    std::vector<LightBounds> bounds_;
 };
 
 } // namespace

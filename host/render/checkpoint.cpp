@@ -76,7 +76,7 @@ void add_world(bxw::Checksum& sum, Device& device, const World& world) {
     add_array(sum, device, appearance.textures);
     add_array(sum, device, appearance.texels);
     add_array(sum, device, appearance.lights);
-    add_array(sum, device, appearance.light_distribution);
+    add_array(sum, device, appearance.light_nodes);
     add_value(sum, static_cast<std::uint32_t>(world.environment.kind));
     add_array(sum, device, world.environment.record);
     add_array(sum, device, world.environment.texels);

@@ -51,6 +51,21 @@ double cosine_difference(double first, double last) {
     return 2.0 * std::sin(0.5 * (last - first)) * std::sin(0.5 * (last + first));
 }
 
+double mean(const glm::vec3& c) { return (double{c.x} + c.y + c.z) / 3.0; }
+
+/// Over the half of all directions that a surface sees, if it sees as much as the others.
+double mean_irradiance(const Environment& e) {
+    if (e.pixels.empty()) return 2.0 * std::numbers::pi * mean(e.radiance);
+    double sum = 0.0;
+    const double step = std::numbers::pi / e.height;
+    for (std::size_t y = 0; y < e.height; ++y) {
+        double row = 0.0;
+        for (std::size_t x = 0; x < e.width; ++x) row += mean(e.pixels[y * e.width + x]);
+        sum += row * cosine_difference(static_cast<double>(y) * step, static_cast<double>(y + 1) * step);
+    }
+    return std::numbers::pi * sum / e.width;
+}
+
 void upload_picture(Device& device, const Environment& e, EnvironmentMap& map) {
     const std::vector<double> means = patch_means(e);
     std::vector<float> rows, columns, texels;
@@ -103,8 +118,11 @@ EnvironmentMap upload_environment(Device& device, const Environment& environment
                                                                                              : EnvironmentKind::none;
     else
         map.kind = bright(radiance) ? EnvironmentKind::constant : EnvironmentKind::none;
-    const EnvironmentRecord record{
-        {radiance.x, radiance.y, radiance.z}, environment.width, environment.height, {0, 0, 0}};
+    const EnvironmentRecord record{{radiance.x, radiance.y, radiance.z},
+                                   environment.width,
+                                   environment.height,
+                                   static_cast<float>(mean_irradiance(environment)),
+                                   {0, 0}};
     map.record = upload(device, std::vector<EnvironmentRecord>{record}, "environment record");
     if (map.kind == EnvironmentKind::picture) upload_picture(device, environment, map);
     return map;

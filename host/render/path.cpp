@@ -103,12 +103,12 @@ private:
         const BufferView<const Hit> hits = first ? primary_.hits : BufferView<const Hit>(hits_);
         fronts_.slices = cut(device_, count);
         launch_shading(device_, programs_.shade, "shade", fronts_.slices.slices, world_.geometry, appearance,
-                       appearance.lights, appearance.light_distribution,
-                       static_cast<std::uint32_t>(appearance.lights.size()), environment.record, environment.texels,
-                       environment.rows, environment.columns, primary_.camera, options_.seed, sample_, options_.samples,
-                       options_.depth, primary_.first_pixel, first ? 1u : 0u, rays, hits,
-                       static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices, paths_.records,
-                       paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct, light_.indirect);
+                       appearance.lights, appearance.light_nodes, static_cast<std::uint32_t>(appearance.lights.size()),
+                       environment.record, environment.texels, environment.rows, environment.columns, primary_.camera,
+                       options_.seed, sample_, options_.samples, options_.depth, primary_.first_pixel, first ? 1u : 0u,
+                       rays, hits, static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices,
+                       paths_.records, paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct,
+                       light_.indirect);
     }
 
     void add_shadows(std::size_t count) {

@@ -23,14 +23,13 @@ struct Appearance {
     Buffer<std::uint32_t> texels;
     /// Punctual ones in scene order, then the triangles that emit, by instance and primitive.
     Buffer<LightRecord> lights;
-    /// Empty without lights, else lights + 1 values from 0 to 1: light i is chosen with the difference after value i.
-    Buffer<float> light_distribution;
+    /// Empty without lights, else the tree over them: lights - 1 nodes of two children, the root first, then a leaf for each light.
+    Buffer<LightNode> light_nodes;
 };
 
-/// Decodes and uploads what `requirements` names of a valid scene (see validate). Lights are chosen by power, what they give off:
-/// of a triangle pi times its emission (of a texture its mean) times area, twice when double-sided; of a punctual light its
-/// intensity over all directions, of a directional one over a disc as large as the scene. 2^-4 of the choices are spread evenly
-/// over the punctual lights that give off anything, so that none is too dim beside the others to be chosen. Triangles that give
+/// Decodes and uploads what `requirements` names of a valid scene (see validate). Lights are chosen
+/// for the place that they may light, through a tree (Conty Estevez and Kulla 2018): by intensity, of a triangle emission (of a
+/// texture its mean) times area and cosine, over the square of the distance; by irradiance of a directional one. Triangles that give
 /// off nothing, or have no area, are no lights. A picture that cannot be decoded, or would pass 2^28 texels, is one grey
 /// texel (of a normal texture: none), and a warning is added to `warnings`. Throws InputError for more than two sets of texture
 /// coordinates, CapacityError, before anything is uploaded, when it does not fit. O(size of the scene).

@@ -49,6 +49,8 @@ struct Settings {
     std::uint32_t reference_samples = 2048;
     std::uint32_t depth = 5;
     std::string interior;
+    std::vector<std::string> scenes; ///< Empty: all.
+    bool default_only = false;
     bool stages_only = false;
     int rounds = 1;
 };
@@ -107,8 +109,32 @@ Camera inside_view(const Scene& scene) {
     return {"inside", look_at(from, from + along), true, 1.0f};
 }
 
+/// A floor under a square lamp of two triangles, and nothing else.
+Scene lamp_over_floor() {
+    Scene scene;
+    test::add_floor(scene, test::matt(glm::vec3(0.6f)));
+    test::add_quad(scene, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, test::lamp(glm::vec3(4.0f)));
+    return scene;
+}
+
+/// The same far off on a wide floor, with a sun.
+Scene lamp_and_sun() {
+    Scene scene;
+    test::add_quad(scene, {-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, test::matt(glm::vec3(0.6f)));
+    test::add_quad(scene, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, test::lamp(glm::vec3(4.0f)));
+    Light sun{"sun", LightKind::directional, glm::vec3(0.5f)};
+    sun.direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
+    scene.lights = {sun};
+    return scene;
+}
+
 std::vector<Study> studies(const Settings& settings) {
     std::vector<Study> all;
+    all.push_back({"lamp", lamp_over_floor(), {}, test::camera_above(2.0f, 1.5f)});
+    all.push_back({"lamp and sun", lamp_and_sun(), {}, test::camera_above(4.0f, 1.5f)});
+    Scene wood = make_procedural("forest");
+    const Camera into_the_wood = wood.cameras.at(0);
+    all.push_back({"wood", std::move(wood), default_sky(), into_the_wood});
     Scene cornell = test::cornell_scene();
     const Camera camera = cornell.cameras.at(0);
     all.push_back({"cornell", std::move(cornell), {}, camera});
@@ -128,6 +154,10 @@ std::vector<Study> studies(const Settings& settings) {
         if (interior.lights.empty()) interior.lights.push_back(bulb);
         all.push_back({"interior", std::move(interior), default_sky(), view});
     }
+    if (!settings.scenes.empty())
+        std::erase_if(all, [&](const Study& study) {
+            return std::find(settings.scenes.begin(), settings.scenes.end(), study.name) == settings.scenes.end();
+        });
     return all;
 }
 
@@ -196,6 +226,7 @@ json run_study(Device& device, const Study& study, const Settings& settings) {
     std::printf("  %-20s %8s %14s %14s %8s\n", "", "slope", "at 16 samples", "at equal time", "ms");
     std::optional<double> equal_ms;
     for (const Contender& contender : contenders) {
+        if (settings.default_only && &contender != contenders) break;
         const std::vector<Point> points = measure(device, lit, study, contender, settings, reference);
         const Line by_samples = fit(points, [](const Point& p) { return double(p.samples); });
         const Line by_time = fit(points, [](const Point& p) { return p.ms; });
@@ -225,6 +256,9 @@ int run(int argc, char** argv) {
     app.add_option("--report", file, "JSON file to write");
     app.add_option("--interior", settings.interior,
                    "a glTF scene to add, under the default sky, with a point light when it has none");
+    app.add_option("--scenes", settings.scenes, "of lamp, lamp and sun, wood, cornell, sky, interior (default: all)")
+        ->delimiter(',');
+    app.add_flag("--default-only", settings.default_only, "sobol, cosine, mis alone");
     app.add_option("--across", settings.across, "pixels across a picture")->check(CLI::Range(1, 4096));
     app.add_option("--samples", settings.most_samples, "most samples of a pixel")->check(CLI::Range(16, 1 << 16));
     app.add_option("--reference", settings.reference_samples, "samples of the reference")

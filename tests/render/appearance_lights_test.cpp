@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -14,11 +13,13 @@ TEST_SUITE_BEGIN("render");
 
 namespace {
 
-/// With what probability light i is chosen, the first `punctual` of them being punctual.
-double share(const std::vector<double>& powers, std::size_t punctual, std::size_t i) {
-    double total = 0;
-    for (const double power : powers) total += power;
-    return 15.0 / 16.0 * powers[i] / total + (i < punctual ? 1.0 / 16.0 / static_cast<double>(punctual) : 0.0);
+/// Strengths of the leaves of the tree over lights.
+std::vector<double> strengths(const Appearance& appearance) {
+    const std::vector<LightNode> nodes = download(test_device(), appearance.light_nodes);
+    std::vector<double> found;
+    for (std::size_t i = nodes.size() / 2; i < nodes.size(); ++i)
+        found.push_back(std::pow(double(nodes[i].amplitude), 2.0));
+    return found;
 }
 
 } // namespace
@@ -38,7 +39,7 @@ TEST_CASE("emitting triangles are lights in world space, of instances that mirro
     const auto lights = download(test_device(), appearance.lights);
     REQUIRE(lights.size() == 5);
     CHECK(lights[0].kind == BOXWOOD_POINT_LIGHT);
-    std::vector<double> powers = {4 * std::numbers::pi * 3};
+    std::vector<double> wanted = {3};
     for (std::uint32_t i = 1; i < 5; ++i) {
         const LightRecord& light = lights[i];
         CHECK(light.kind == BOXWOOD_TRIANGLE_LIGHT);
@@ -64,18 +65,14 @@ TEST_CASE("emitting triangles are lights in world space, of instances that mirro
         for (int k = 0; k < 2; ++k)
             for (int axis = 0; axis < 3; ++axis)
                 CHECK(light.edges[k][axis] == doctest::Approx(v[k + 1][axis] - v[0][axis]).epsilon(1e-5));
-        powers.push_back(std::numbers::pi * 3 * area);
+        wanted.push_back(3 * area);
     }
-    const auto distribution = download(test_device(), appearance.light_distribution);
-    REQUIRE(distribution.size() == 6);
-    CHECK(distribution.front() == 0.0f);
-    CHECK(distribution.back() == 1.0f);
-    for (std::size_t i = 0; i < powers.size(); ++i)
-        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(share(powers, 1, i)).epsilon(1e-5));
+    const std::vector<double> found = strengths(appearance);
+    REQUIRE(found.size() == wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) CHECK(found[i] == doctest::Approx(wanted[i]).epsilon(1e-5));
 }
 
-TEST_CASE(
-    "triangles without area or light are no lights; double-sided ones count twice; punctual ones by what they send") {
+TEST_CASE("triangles without area or light are no lights; double-sided ones shine both ways; spots within their cone") {
     Material lamp = plain_material();
     lamp.emission = {1, 1, 1};
     lamp.double_sided = true;
@@ -98,17 +95,12 @@ TEST_CASE(
     CHECK(ramp(0.2) == doctest::Approx(1.0).epsilon(1e-5));
     CHECK(std::abs(ramp(0.6)) < 1e-5);
 
-    double sent = 0; // by the spot: a sum over the angle from its axis
-    const int steps = 100000;
-    for (int i = 0; i < steps; ++i) {
-        const double angle = std::numbers::pi * (i + 0.5) / steps;
-        const double fade = std::clamp((std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6)), 0.0, 1.0);
-        sent += 2 * std::numbers::pi * std::sin(angle) * 2 * fade * fade * std::numbers::pi / steps;
-    }
-    const std::vector<double> powers = {std::numbers::pi * 0.5, sent, std::numbers::pi * 0.5 * 2};
-    const auto distribution = download(test_device(), appearance.light_distribution);
-    for (std::size_t i = 0; i < 3; ++i)
-        CHECK(distribution[i + 1] - distribution[i] == doctest::Approx(share(powers, 2, i)).epsilon(1e-5));
+    const std::vector<double> wanted = {1, 2, 0.5}, found = strengths(appearance);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(found[i] == doctest::Approx(wanted[i]).epsilon(1e-5));
+    const std::vector<LightNode> nodes = download(test_device(), appearance.light_nodes);
+    CHECK(nodes[2].distant == 1);
+    CHECK(std::atan2(nodes[3].spread_sine, nodes[3].spread_cosine) == doctest::Approx(0.6).epsilon(1e-5));
+    CHECK(nodes[4].spread_cosine == -1.0f);
 }
 
 TEST_CASE("a black emission texture makes no lights, and a partly black one weaker ones") {
@@ -123,29 +115,9 @@ TEST_CASE("a black emission texture makes no lights, and a partly black one weak
     scene.lights.push_back({"point", LightKind::point, glm::vec3(0.125f)});
     const Appearance appearance = appearance_of(scene);
     REQUIRE(appearance.lights.size() == 3);
-    // pi * 1/2 * 1/2 for each triangle, 4 pi / 8 for the point.
-    const auto distribution = download(test_device(), appearance.light_distribution);
-    const std::vector<double> powers = {0.5, 0.25, 0.25};
-    CHECK(distribution[1] == doctest::Approx(share(powers, 1, 0)));
-    CHECK(distribution[2] - distribution[1] == doctest::Approx(share(powers, 1, 1)));
-}
-
-TEST_CASE("punctual lights however dim are chosen, wherever they are in the list") {
-    Scene scene = one_square(plain_material());
-    const Light sun{"sun", LightKind::directional, glm::vec3(largest_radiance)};
-    const Light dim{"dim", LightKind::point, glm::vec3(1e-30f)};
-    for (const auto& lights : {std::vector<Light>{sun, dim, dim}, {dim, sun, dim}, {dim, dim, sun}}) {
-        scene.lights = lights;
-        const auto distribution = download(test_device(), appearance_of(scene).light_distribution);
-        REQUIRE(distribution.size() == 4);
-        for (std::size_t i = 0; i < 3; ++i) CHECK(distribution[i + 1] - distribution[i] >= (1 - 1e-5) / 16 / 3);
-        CHECK(distribution[3] == 1.0f);
-    }
-    // A scene without extent gets no power from a sun.
-    scene = {};
-    scene.lights = {sun, dim, dim};
-    const auto distribution = download(test_device(), appearance_of(scene).light_distribution);
-    CHECK(distribution == std::vector<float>{0.0f, 0.0f, 0.5f, 1.0f});
+    const std::vector<double> found = strengths(appearance);
+    CHECK(found[0] == doctest::Approx(0.125));
+    CHECK(found[1] == doctest::Approx(0.25));
 }
 
 TEST_SUITE_END();

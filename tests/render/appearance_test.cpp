@@ -130,7 +130,7 @@ TEST_CASE("of one material in use there is one record and no list, and an empty 
     CHECK(appearance.triangle_materials.size() == 0);
     CHECK(appearance.attributes.size() == 0);
     CHECK(appearance.lights.size() == 0);
-    CHECK(appearance.light_distribution.size() == 0);
+    CHECK(appearance.light_nodes.size() == 0);
     const auto materials = download(test_device(), appearance.materials);
     REQUIRE(materials.size() == 1);
     CHECK(materials[0].base_color[0] == 0.8f);
