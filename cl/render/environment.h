@@ -4,6 +4,8 @@
 // ENVIRONMENT  0: there is none. 1: the same everywhere; drawn uniformly from the hemisphere over a surface. 2: a picture of the
 //              sphere, bilinear between the centres of texels; drawn by its luminance: a patch between four centres, then a
 //              place in it (Pharr, Jakob and Humphreys 2023, A.5), so that there is no radiance without density.
+// COMPENSATED  for ENVIRONMENT 2. 1: surfaces draw directions, too, and both are weighted by the balance or power heuristic: drawn by
+//              what is above the mean luminance, the even part being left to the surfaces (Karlik et al. 2019). 0: by all of it.
 #ifndef BOXWOOD_RENDER_ENVIRONMENT_H
 #define BOXWOOD_RENDER_ENVIRONMENT_H
 #include "render/search.h"
@@ -15,12 +17,16 @@
 #error "define ENVIRONMENT (0 none, 1 constant, 2 picture)"
 #endif
 
+#if ENVIRONMENT == 2 && !defined(COMPENSATED)
+#error "define COMPENSATED (0 or 1)"
+#endif
+
 #if ENVIRONMENT
 typedef struct EnvironmentArrays {
     global const EnvironmentRecord* record;
 #if ENVIRONMENT == 2
     global const float* texels;  ///< 3 per texel, rows from +y to -y.
-    global const float* rows;    ///< height + 2: distribution over the rows of patches.
+    global const float* rows;    ///< height + 2: distribution over the rows of patches, by COMPENSATED.
     global const float* columns; ///< height + 1 times width + 1: distributions over the patches of a row.
 #endif
 } EnvironmentArrays;
@@ -37,11 +43,15 @@ INLINE void mix3(real part, const Vector* to, Vector* from) {
 /// A patch of the picture, in each lane: the texels whose centres are its corners (those of the first or the last row twice, half a
 /// texel being left beyond them), and where it begins and ends, in texels.
 typedef struct Patch {
-    Vector corners[2][2]; ///< By row and column.
+    Vector corners[2][2]; ///< Radiance, by row and column,
+    real weights[2][2];   ///< and what places are drawn by.
     real left, top, height;
 } Patch;
 
 INLINE real luminance(const Vector* c) { return fma(c->x, 0.2126f, fma(c->y, 0.7152f, c->z * 0.0722f)); }
+
+/// from becomes (1 - part) from + part to, not negative where neither is.
+INLINE real mix_weights(real from, real to, real part) { return GREATER(fma(part, to - from, from), (real)(0.0f)); }
 
 /// The patch of column `column`, which begins at the centre of that texel, and row `row`, which ends at the centre of that one.
 INLINE void load_patch(const EnvironmentArrays* environment, const uint* column, const uint* row, Patch* patch) {
@@ -56,7 +66,13 @@ INLINE void load_patch(const EnvironmentArrays* environment, const uint* column,
         index[1][1][lane] = below * width + right;
     }
     for (uint j = 0; j < 2; ++j)
-        for (uint i = 0; i < 2; ++i) load_vectors(environment->texels, 3, index[j][i], &patch->corners[j][i]);
+        for (uint i = 0; i < 2; ++i) {
+            load_vectors(environment->texels, 3, index[j][i], &patch->corners[j][i]);
+            patch->weights[j][i] = luminance(&patch->corners[j][i]);
+#if COMPENSATED
+            patch->weights[j][i] = GREATER(patch->weights[j][i] - environment->record->floor, (real)(0.0f));
+#endif
+        }
     const real begin = TO_REAL(LOAD_LANES(row)) - 0.5f;
     patch->left = TO_REAL(LOAD_LANES(column)) + 0.5f;
     patch->top = GREATER(begin, (real)(0.0f));
@@ -74,14 +90,14 @@ INLINE void patch_radiance(const Patch* patch, real across, real down, Vector* r
 
 /// Density, by solid angle, at a place of a patch that is chosen with `probability`. `sine` is that of the angle to the picture's
 /// axis, where the density is infinite: it ends at a sine that floats hardly have room for.
-INLINE real patch_density(const EnvironmentArrays* environment, const Patch* patch, real probability, const Vector* radiance,
+INLINE real patch_density(const EnvironmentArrays* environment, const Patch* patch, real probability, real across, real down,
                           real sine) {
     const float scale =
         ((float)environment->record->width * (float)environment->record->height) * (0.5f * M_1_PI_F * M_1_PI_F);
-    real sum = 0.0f;
-    for (uint j = 0; j < 2; ++j)
-        for (uint i = 0; i < 2; ++i) sum += luminance(&patch->corners[j][i]);
-    const real relative = CHOOSE(sum > 0.0f, luminance(radiance) / (0.25f * sum), (real)(1.0f));
+    const real sum = (patch->weights[0][0] + patch->weights[0][1]) + (patch->weights[1][0] + patch->weights[1][1]);
+    const real weight = mix_weights(mix_weights(patch->weights[0][0], patch->weights[0][1], across),
+                                    mix_weights(patch->weights[1][0], patch->weights[1][1], across), down);
+    const real relative = CHOOSE(sum > 0.0f, weight / (0.25f * sum), (real)(1.0f));
     return relative * (probability * scale / (patch->height * GREATER(sine, (real)(0x1p-64f))));
 }
 
@@ -124,9 +140,19 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
     }
     Patch patch;
     load_patch(environment, column, row, &patch);
-    const real across = x_around + 0.5f - patch.left, down = (y - patch.top) / patch.height;
-    patch_radiance(&patch, LESSER(across, (real)(1.0f)), LESSER(down, (real)(1.0f)), radiance);
-    *pdf = patch_density(environment, &patch, LOAD_LANES(of_row) * LOAD_LANES(of_column), radiance, sine);
+    const real across = LESSER(x_around + 0.5f - patch.left, (real)(1.0f));
+    const real down = LESSER((y - patch.top) / patch.height, (real)(1.0f));
+    patch_radiance(&patch, across, down, radiance);
+    *pdf = patch_density(environment, &patch, LOAD_LANES(of_row) * LOAD_LANES(of_column), across, down, sine);
+#endif
+}
+
+/// From the half of all directions that a surface sees, in the mean: of what directions are drawn by.
+inline float drawn_irradiance(const EnvironmentArrays* environment) {
+#if ENVIRONMENT == 2 && COMPENSATED
+    return environment->record->irradiance_above_floor;
+#else
+    return environment->record->irradiance;
 #endif
 }
 
@@ -155,12 +181,9 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     (void)normal;
     Patch patch;
     load_patch(environment, column, row, &patch);
-    real corners[2][2];
-    for (uint j = 0; j < 2; ++j)
-        for (uint i = 0; i < 2; ++i) corners[j][i] = luminance(&patch.corners[j][i]);
-    const real down = sample_linear(corners[0][0] + corners[0][1], corners[1][0] + corners[1][1], v);
-    const real across = sample_linear(fma(down, corners[1][0] - corners[0][0], corners[0][0]),
-                                      fma(down, corners[1][1] - corners[0][1], corners[0][1]), u);
+    const real down = sample_linear(patch.weights[0][0] + patch.weights[0][1], patch.weights[1][0] + patch.weights[1][1], v);
+    const real across = sample_linear(mix_weights(patch.weights[0][0], patch.weights[1][0], down),
+                                      mix_weights(patch.weights[0][1], patch.weights[1][1], down), u);
     const real x = patch.left + across, y = fma(down, patch.height, patch.top);
     real sine, cosine, sine_across, cosine_across;
     sincos_turn(0.5f * (y / (float)height), &sine, &cosine);
@@ -169,7 +192,7 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     const Vector d = {-(sine * sine_across), cosine, sine * cosine_across};
     *direction = d;
     patch_radiance(&patch, across, down, radiance);
-    *pdf = patch_density(environment, &patch, of_row * of_column, radiance, sine);
+    *pdf = patch_density(environment, &patch, of_row * of_column, across, down, sine);
 #endif
 }
 #endif

@@ -33,9 +33,9 @@ typedef struct Importance {
 // The least probability of a node that gives light beside one that does.
 #define LEAST_SHARE 0x1p-6f
 
-// That of each of environment, distant lights and others beside the rest: walls may keep the brightest of them from a place, and no
-// reflected ray finds a light without extent.
-#define LEAST_OF_KIND 0x1p-3f
+// What environment, distant and other lights share evenly; the rest goes by irradiance. Walls often keep the brightest of them from
+// a place, and no reflected ray finds a light without extent.
+#define EVEN_PART 0.5f
 
 /// From its nodes and the number of lights, > 0.
 inline LightTree light_tree_of(global const LightNode* nodes, uint lights) {
@@ -147,10 +147,10 @@ INLINE void light_shares(const LightTree* tree, float environment, const Vector*
     if (near) of_near = near_irradiance(tree, place);
     const real all = environment + of_distant + of_near;
     const mask known = (all > 0.0f) & (all < INFINITY);
-    const real free = 1.0f - LEAST_OF_KIND * kinds, even = 1.0f / kinds;
-    shares->environment *= CHOOSE(known, LEAST_OF_KIND + free * (environment / all), even);
-    shares->distant *= CHOOSE(known, LEAST_OF_KIND + free * (of_distant / all), even);
-    shares->near *= CHOOSE(known, LEAST_OF_KIND + free * (of_near / all), even);
+    const real even = 1.0f / kinds;
+    shares->environment *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (environment / all), even);
+    shares->distant *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_distant / all), even);
+    shares->near *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_near / all), even);
 }
 
 /// Chooses a light below `root`. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(depth of the tree). Any

@@ -7,6 +7,7 @@
 // LIGHTS    1: there are lights to sample towards
 #ifndef BOXWOOD_RENDER_PATH_H
 #define BOXWOOD_RENDER_PATH_H
+#define COMPENSATED (STRATEGY == 0)
 #include "render/environment.h"
 #include "render/lights.h"
 #include "render/sampler.h"
@@ -73,7 +74,7 @@ INLINE void find_shares(const PathWorld* world, const Vector* place, LightShares
     const LightShares sky = {(real)(SAMPLE_ENVIRONMENT ? 1.0f : 0.0f), (real)(0.0f), (real)(0.0f)};
     *shares = sky;
 #if LIGHTS && SAMPLE_ENVIRONMENT
-    light_shares(&world->lights.tree, world->environment.record->irradiance, place, shares);
+    light_shares(&world->lights.tree, drawn_irradiance(&world->environment), place, shares);
 #elif LIGHTS
     light_shares(&world->lights.tree, 0.0f, place, shares);
 #endif

@@ -11,7 +11,9 @@ typedef struct EnvironmentRecord {
     uint width;        ///< 0: no picture.
     uint height;
     float irradiance; ///< From the half of all directions that a surface sees, in the mean.
-    uint reserved[2]; ///< Zero.
+    // Where surfaces draw directions, too, those of a picture are drawn by what is brighter than its mean (MIS compensation).
+    float floor;                 ///< The mean luminance.
+    float irradiance_above_floor;
 } EnvironmentRecord;
 BOXWOOD_SHARED_SIZE(EnvironmentRecord, 32)
 

@@ -29,9 +29,15 @@ void append_distribution(const std::vector<double>& weights, std::vector<float>&
     }
 }
 
-/// Mean luminance of each patch between the centres of four texels, but for the solid angle of its row: height + 1 rows, the first
+double mean_luminance(const Environment& e) {
+    double sum = 0.0;
+    for (const glm::vec3& pixel : e.pixels) sum += luminance(pixel);
+    return sum / static_cast<double>(e.pixels.size());
+}
+
+/// Mean of the luminance above `floor` at the corners of each patch between the centres of four texels, but for the solid angle of its row: height + 1 rows, the first
 /// and the last half a texel high. Columns wrap around, rows end.
-std::vector<double> patch_means(const Environment& e) {
+std::vector<double> patch_means(const Environment& e, float floor) {
     std::vector<double> means;
     means.reserve(std::size_t{e.height + 1} * e.width);
     for (std::size_t y = 0; y <= e.height; ++y) {
@@ -39,8 +45,10 @@ std::vector<double> patch_means(const Environment& e) {
         const glm::vec3* below = e.pixels.data() + std::min<std::size_t>(y, e.height - 1) * e.width;
         for (std::size_t x = 0; x < e.width; ++x) {
             const std::size_t right = (x + 1) % e.width;
-            means.push_back(
-                0.25 * (luminance(above[x]) + luminance(above[right]) + luminance(below[x]) + luminance(below[right])));
+            double sum = 0.0;
+            for (const glm::vec3& corner : {above[x], above[right], below[x], below[right]})
+                sum += std::max(luminance(corner) - double{floor}, 0.0);
+            means.push_back(0.25 * sum);
         }
     }
     return means;
@@ -53,39 +61,55 @@ double cosine_difference(double first, double last) {
 
 double mean(const glm::vec3& c) { return (double{c.x} + c.y + c.z) / 3.0; }
 
-/// Over the half of all directions that a surface sees, if it sees as much as the others.
-double mean_irradiance(const Environment& e) {
+/// Of the light above `floor` over the half of all directions that a surface sees, if it sees as much as the others.
+double mean_irradiance(const Environment& e, float floor) {
     if (e.pixels.empty()) return 2.0 * std::numbers::pi * mean(e.radiance);
     double sum = 0.0;
     const double step = std::numbers::pi / e.height;
     for (std::size_t y = 0; y < e.height; ++y) {
         double row = 0.0;
-        for (std::size_t x = 0; x < e.width; ++x) row += mean(e.pixels[y * e.width + x]);
+        for (std::size_t x = 0; x < e.width; ++x) {
+            const glm::vec3& pixel = e.pixels[y * e.width + x];
+            const double light = luminance(pixel);
+            if (light > floor) row += mean(pixel) * (1.0 - floor / light);
+        }
         sum += row * cosine_difference(static_cast<double>(y) * step, static_cast<double>(y + 1) * step);
     }
     return std::numbers::pi * sum / e.width;
 }
 
-void upload_picture(Device& device, const Environment& e, EnvironmentMap& map) {
-    const std::vector<double> means = patch_means(e);
-    std::vector<float> rows, columns, texels;
+struct Distribution {
+    std::vector<float> rows, columns;
+};
+
+Distribution patch_distribution(const Environment& e, float floor) {
+    const std::vector<double> means = patch_means(e, floor);
+    Distribution distribution;
     std::vector<double> row_masses(std::size_t{e.height} + 1);
-    columns.reserve(means.size() + e.height + 1);
+    distribution.columns.reserve(means.size() + e.height + 1);
     for (std::size_t y = 0; y <= e.height; ++y) {
         const auto first = means.begin() + static_cast<std::ptrdiff_t>(y * e.width);
         const std::vector<double> row(first, first + e.width);
-        append_distribution(row, columns);
+        append_distribution(row, distribution.columns);
         const double step = std::numbers::pi / e.height;
         const double top = step * std::max(static_cast<double>(y) - 0.5, 0.0);
         const double bottom = step * std::min(static_cast<double>(y) + 0.5, static_cast<double>(e.height));
         for (const double mean : row) row_masses[y] += mean * cosine_difference(top, bottom);
     }
-    append_distribution(row_masses, rows);
+    append_distribution(row_masses, distribution.rows);
+    return distribution;
+}
+
+void upload_picture(Device& device, const Environment& e, float floor, EnvironmentMap& map) {
+    std::vector<float> texels;
     texels.reserve(3 * e.pixels.size());
     for (const glm::vec3& pixel : e.pixels) texels.insert(texels.end(), {pixel.x, pixel.y, pixel.z});
     map.texels = upload(device, texels, "environment");
-    map.rows = upload(device, rows, "environment rows");
-    map.columns = upload(device, columns, "environment columns");
+    const Distribution all = patch_distribution(e, 0.0f), above = patch_distribution(e, floor);
+    map.rows = upload(device, all.rows, "environment rows");
+    map.columns = upload(device, all.columns, "environment columns");
+    map.rows_above_floor = upload(device, above.rows, "environment rows");
+    map.columns_above_floor = upload(device, above.columns, "environment columns");
 }
 
 bool is_radiance(const glm::vec3& c) {
@@ -118,13 +142,15 @@ EnvironmentMap upload_environment(Device& device, const Environment& environment
                                                                                              : EnvironmentKind::none;
     else
         map.kind = bright(radiance) ? EnvironmentKind::constant : EnvironmentKind::none;
+    const float floor = environment.pixels.empty() ? 0.0f : static_cast<float>(mean_luminance(environment));
     const EnvironmentRecord record{{radiance.x, radiance.y, radiance.z},
                                    environment.width,
                                    environment.height,
-                                   static_cast<float>(mean_irradiance(environment)),
-                                   {0, 0}};
+                                   static_cast<float>(mean_irradiance(environment, 0.0f)),
+                                   floor,
+                                   static_cast<float>(mean_irradiance(environment, floor))};
     map.record = upload(device, std::vector<EnvironmentRecord>{record}, "environment record");
-    if (map.kind == EnvironmentKind::picture) upload_picture(device, environment, map);
+    if (map.kind == EnvironmentKind::picture) upload_picture(device, environment, floor, map);
     return map;
 }
 

@@ -18,6 +18,7 @@ struct EnvironmentMap {
     Buffer<float> texels;  ///< 3 per texel.
     Buffer<float> rows;    ///< height + 2 values from 0 to 1: a row of patches is chosen with the difference.
     Buffer<float> columns; ///< The same within each row: (height + 1) * (width + 1).
+    Buffer<float> rows_above_floor, columns_above_floor; ///< The same of what is brighter than the picture's mean.
 };
 
 /// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture whose

@@ -99,16 +99,18 @@ private:
         const Stage stage(device_, "shade");
         const Appearance& appearance = world_.appearance;
         const EnvironmentMap& environment = world_.environment;
+        const bool compensated = options_.strategy == Strategy::mis;
         const BufferView<const Ray> rays = first ? primary_.rays : BufferView<const Ray>(paths_.rays);
         const BufferView<const Hit> hits = first ? primary_.hits : BufferView<const Hit>(hits_);
         fronts_.slices = cut(device_, count);
-        launch_shading(device_, programs_.shade, "shade", fronts_.slices.slices, world_.geometry, appearance,
-                       appearance.lights, appearance.light_nodes, static_cast<std::uint32_t>(appearance.lights.size()),
-                       environment.record, environment.texels, environment.rows, environment.columns, primary_.camera,
-                       options_.seed, sample_, options_.samples, options_.depth, primary_.first_pixel, first ? 1u : 0u,
-                       rays, hits, static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices,
-                       paths_.records, paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct,
-                       light_.indirect);
+        launch_shading(
+            device_, programs_.shade, "shade", fronts_.slices.slices, world_.geometry, appearance, appearance.lights,
+            appearance.light_nodes, static_cast<std::uint32_t>(appearance.lights.size()), environment.record,
+            environment.texels, compensated ? environment.rows_above_floor : environment.rows,
+            compensated ? environment.columns_above_floor : environment.columns, primary_.camera, options_.seed,
+            sample_, options_.samples, options_.depth, primary_.first_pixel, first ? 1u : 0u, rays, hits,
+            static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices, paths_.records,
+            paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct, light_.indirect);
     }
 
     void add_shadows(std::size_t count) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // compile: ENVIRONMENT=1 LANES=1
 // compile: ENVIRONMENT=1 LANES=16
-// compile: ENVIRONMENT=2 LANES=1
-// compile: ENVIRONMENT=2 LANES=16
+// compile: ENVIRONMENT=2 COMPENSATED=0 LANES=1
+// compile: ENVIRONMENT=2 COMPENSATED=1 LANES=16
 #include "bounds/lanes_of.h"
 #include "render/environment.h"
 

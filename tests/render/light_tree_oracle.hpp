@@ -66,7 +66,7 @@ inline double near_irradiance(const std::vector<LightNode>& nodes, const glm::dv
     return sum + last;
 }
 
-/// Of environment, distant and near lights: an eighth for each kind that there is, the rest by irradiance.
+/// Of environment, distant and near lights: half of them evenly, the rest by irradiance.
 inline std::array<double, 3> light_shares(const std::vector<LightNode>& nodes, double environment,
                                           const glm::dvec3& place) {
     const LightRoots roots(nodes);
@@ -75,7 +75,7 @@ inline std::array<double, 3> light_shares(const std::vector<LightNode>& nodes, d
     if (some[1]) shares[1] = std::pow(double(nodes[roots.distant].amplitude), 2.0);
     if (some[2]) shares[2] = near_irradiance(nodes, place);
     const double kinds = some[0] + some[1] + some[2], all = shares[0] + shares[1] + shares[2];
-    for (int i = 0; i < 3; ++i) shares[i] = some[i] ? 1.0 / 8 + (1 - kinds / 8) * shares[i] / all : 0.0;
+    for (int i = 0; i < 3; ++i) shares[i] = some[i] ? 0.5 / kinds + 0.5 * shares[i] / all : 0.0;
     if (kinds == 1)
         for (int i = 0; i < 3; ++i) shares[i] = some[i] ? 1.0 : 0.0;
     return shares;

@@ -215,7 +215,7 @@ TEST_CASE("light tree: the probabilities of all lights are positive and add up t
                 CHECK(answer.of_named > 0);
                 CHECK((answer.light >= suns && answer.light < lights.size()));
                 CHECK((answer.rest >= 0 && answer.rest < 1));
-                for (const double share : answer.shares) CHECK((share >= 0.125 && share <= 0.75));
+                for (const double share : answer.shares) CHECK((share >= 0.1666 && share <= 0.6667));
                 CHECK(answer.shares[0] + answer.shares[1] + answer.shares[2] == doctest::Approx(1.0).epsilon(1e-6));
                 sum += answer.of_named;
             }
@@ -258,9 +258,9 @@ TEST_CASE("light tree: what is near, and what faces a place, is chosen there") {
     };
     const auto left = shares({-50, 0, 0}), right = shares({50, 0, 0}), far = shares({0, 0, 5000});
     CHECK(left[1] > 0.6);
-    CHECK(right[2] > 0.6);
+    CHECK(right[2] > 0.5);
     CHECK(right[3] < 0.05);
-    CHECK(far[0] > 0.87);
+    CHECK(far[0] > 0.74);
     // A lamp that gives nothing is not chosen beside another.
     const std::vector<LightBounds> dark = {lamp_at({0, 1, 0}, 1, {0, -1, 0}, 0), lamp_at({1, 1, 0}, 1, {0, -1, 0}, 1)};
     const std::vector<Answer> answers = ask(light_tree(dark), {{{0, 0, 0}, 0.1f, 0}, {{0, 0, 0}, 0.9f, 1}});
