@@ -15,6 +15,7 @@
 #include "io/gltf_lines.hpp"
 #include "io/picture.hpp"
 #include "render/appearance_lights.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 
@@ -135,7 +136,7 @@ void print_scene(const Input& input) {
               << grouped(scene.instanced_triangle_count()) << " as seen\n"
               << "  vertices    " << grouped(scene.vertex_count()) << '\n';
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-        std::cout << "  camera " << i << "    \"" << scene.cameras[i].name << "\", "
+        std::cout << "  camera " << i << "    \"" << excerpt(scene.cameras[i].name) << "\", "
                   << (scene.cameras[i].perspective ? "perspective" : "orthographic") << '\n';
     const ImportCounts& counts = scene.counts;
     if (counts.dropped_triangles || counts.dropped_instances || counts.skipped_points_and_lines)
@@ -149,7 +150,7 @@ void print_looks(const Scene& scene) {
               << "  textures    " << grouped(scene.textures.size()) << '\n';
     constexpr std::size_t most_lines = 8;
     for (std::size_t i = 0; i < scene.images.size() && i < most_lines; ++i) {
-        std::cout << "  image " << i << "     \"" << scene.images[i].name << "\", ";
+        std::cout << "  image " << i << "     \"" << excerpt(scene.images[i].name) << "\", ";
         if (const auto size = size_of(scene.images[i]))
             std::cout << size->width << " x " << size->height << '\n';
         else

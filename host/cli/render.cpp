@@ -17,6 +17,7 @@
 #include "cli/render_work.hpp"
 #include "cli/report.hpp"
 #include "cli/view.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 
@@ -170,8 +171,8 @@ void print_summary(const Arguments& arguments, const RenderOptions& options, con
                    const Surroundings& around) {
     const Integrator integrator = options.light.integrator;
     std::cout << arguments.output.string() << ": " << options.width << " x " << options.height << ", "
-              << name(integrator) << ", " << result.work.samples << " samples per pixel, camera \"" << camera.name
-              << '"';
+              << name(integrator) << ", " << result.work.samples << " samples per pixel, camera \""
+              << excerpt(camera.name) << '"';
     if (shows_light(integrator))
         std::cout << ", environment " << around.name
                   << (around.name == "sky" && arguments.environment.empty() ? " (nothing else lights the scene)" : "");

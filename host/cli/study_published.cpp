@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boxwood/error.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 
@@ -45,7 +46,7 @@ struct Line {
         const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
         if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(value) || value < 0.0)
             throw InputError(file, where,
-                             "has \"" + text + "\" for " + column + ", which is not a number of 0 or more");
+                             "has \"" + excerpt(text) + "\" for " + column + ", which is not a number of 0 or more");
         return value;
     }
 };
@@ -63,7 +64,7 @@ Published load_published(const std::filesystem::path& file) {
     std::size_t column = 0;
     for (const std::string& name : cells_of(text))
         if (!columns.emplace(name, column++).second && !name.empty())
-            throw InputError(file.string(), "line 1", "names column " + name + " twice");
+            throw InputError(file.string(), "line 1", "names column " + excerpt(name) + " twice");
     for (const char* name : {"scene", "area", "orientation", "builder", "real_cost_local", "estimated_pah_cost",
                              "estimated_sah_cost", "overlap_level4", "overlap_level4_culled"})
         if (!columns.contains(name)) throw InputError(file.string(), "line 1", std::string("names no column ") + name);
@@ -73,7 +74,8 @@ Published load_published(const std::filesystem::path& file) {
         const Line line{columns, cells_of(text), file.string(), "line " + std::to_string(number)};
         const std::string configuration = line.word("scene") + ' ' + line.word("area") + ' ' + line.word("orientation");
         if (published[configuration].contains(line.word("builder")))
-            throw InputError(line.file, line.where, "has " + line.word("builder") + " of " + configuration + " again");
+            throw InputError(line.file, line.where,
+                             "has " + excerpt(line.word("builder")) + " of " + excerpt(configuration) + " again");
         PublishedCost& cost = published[configuration][line.word("builder")];
         cost.cost = line.number("real_cost_local");
         cost.estimated_pah = line.number("estimated_pah_cost");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "boxwood/rays.hpp"
+#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood::cli {
@@ -31,9 +32,10 @@ glm::dvec3 to_point(const std::string& option, const std::string& text) {
 std::string camera_list(const std::vector<Camera>& cameras) {
     if (cameras.empty()) return "the file has none; leave --camera out to see everything";
     std::string list = "the file has ";
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " \"" + cameras[i].name + "\"";
-    return list;
+    constexpr std::size_t most = 8;
+    for (std::size_t i = 0; i < std::min(most, cameras.size()); ++i)
+        list += (i ? ", " : "") + std::to_string(i) + " \"" + excerpt(cameras[i].name) + "\"";
+    return cameras.size() > most ? list + " and " + std::to_string(cameras.size() - most) + " more" : list;
 }
 
 Camera stored_camera(const Input& input, const std::string& wanted) {
@@ -82,7 +84,8 @@ Camera choose_camera(const Input& input, const View& view) {
     const auto angle = static_cast<float>(*view.field_of_view / 180.0 * std::numbers::pi);
     if (!(angle > 0.0f && angle < std::numbers::pi_v<float>)) // rounded, as the camera has it
         throw UsageError("--fov must lie between 0 and 180 degrees");
-    if (!camera.perspective) throw UsageError("--fov: camera \"" + camera.name + "\" is orthographic and has none");
+    if (!camera.perspective)
+        throw UsageError("--fov: camera \"" + excerpt(camera.name) + "\" is orthographic and has none");
     camera.vertical_fov = angle;
     return camera;
 }

@@ -9,6 +9,7 @@
 
 #include "boxwood/error.hpp"
 #include "io/gltf_document.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -92,7 +93,7 @@ std::vector<InfluenceArea> read_areas(std::string_view text, const std::string& 
     try {
         list = json::parse(text);
     } catch (const json::exception& error) { // broken text, or a number beyond double
-        throw InputError(source, "", error.what());
+        throw InputError(source, "", excerpt(error.what()));
     }
     if (!list.is_array()) throw InputError(source, "", "is not a JSON list of influence areas");
     if (list.size() > most_areas) throw CapacityError("influence areas", list.size(), most_areas);

@@ -35,6 +35,7 @@ void* reallocate(void* block, std::size_t bytes) {
 #pragma GCC diagnostic pop
 
 #include "boxwood/error.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -74,10 +75,11 @@ bool has_sound_tables(std::span<const std::byte> file) {
 
 /// Length of a file that may be given to the decoder.
 int byte_count(const EncodedImage& image) {
-    if (!picture_format(image.bytes)) throw InputError(image.name, "", "is neither PNG nor JPEG");
-    if (image.bytes.size() > std::numeric_limits<int>::max()) throw InputError(image.name, "", "is too large a file");
+    if (!picture_format(image.bytes)) throw InputError(excerpt(image.name), "", "is neither PNG nor JPEG");
+    if (image.bytes.size() > std::numeric_limits<int>::max())
+        throw InputError(excerpt(image.name), "", "is too large a file");
     if (picture_format(image.bytes) == PictureFormat::jpeg && !has_sound_tables(image.bytes))
-        throw InputError(image.name, "", "cannot be decoded: a table of codes is too long");
+        throw InputError(excerpt(image.name), "", "cannot be decoded: a table of codes is too long");
     return static_cast<int>(image.bytes.size());
 }
 
@@ -87,7 +89,7 @@ int byte_count(const EncodedImage& image) {
     // What it says of a head that none of its decoders takes.
     if (reason == "unknown image type") reason = "its head is broken, or tells of more than 2^30 bytes of pixels";
     if (reason == "outofdata") reason = "it ends early";
-    throw InputError(image.name, "", "cannot be decoded: " + reason);
+    throw InputError(excerpt(image.name), "", "cannot be decoded: " + reason);
 }
 
 bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> signature) {
@@ -111,7 +113,7 @@ PictureSize picture_size(const EncodedImage& image) {
     int width = 0, height = 0, channels = 0;
     largest_block = smallest_limit;
     if (stbi_info_from_memory(first_byte(image), bytes, &width, &height, &channels) == 0) fail(image);
-    if (width <= 0 || height <= 0) throw InputError(image.name, "", "has no pixels");
+    if (width <= 0 || height <= 0) throw InputError(excerpt(image.name), "", "has no pixels");
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
