@@ -38,7 +38,9 @@ Elements find_elements(const GltfDocument& document, int view_index, std::size_t
     if (!GltfDocument::has(view.buffer, document.buffers.size())) {
         document.fail(view_name, "names buffers[" + std::to_string(view.buffer) + "], which does not exist");
     }
-    const std::span<const std::byte> buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
+    const GltfDocument::Buffer& source = document.buffers[static_cast<std::size_t>(view.buffer)];
+    if (!source.fault.empty()) document.fail(source.fault_place, source.fault);
+    const std::span<const std::byte> buffer = source.bytes;
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
         document.fail(view_name, "reaches outside " + element("buffers", static_cast<std::size_t>(view.buffer)));
     }
@@ -192,8 +194,18 @@ std::span<const std::byte> view_bytes(const GltfDocument& document, int index, c
     return {find_elements(document, index, 0, 1, size, where).first, size};
 }
 
-std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& where) {
+bool has_data(const GltfDocument& document, int index, const std::string& where) {
+    const tinygltf::Accessor& accessor = find_accessor(document, index, where);
+    return accessor.bufferView >= 0 || (accessor.sparse.isSparse && accessor.sparse.count > 0);
+}
+
+std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& where,
+                                        Warnings& warnings) {
     const tinygltf::Accessor& accessor = open_accessor(document, index, TINYGLTF_TYPE_SCALAR, "SCALAR", where);
+    const auto& views = document.model.bufferViews;
+    if (GltfDocument::has(accessor.bufferView, views.size()) &&
+        views[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0)
+        warnings.add_repeated(where, "are in a buffer view with a byteStride, which glTF forbids; followed as it is");
     std::vector<std::uint32_t> elements(accessor.count, 0);
     if (elements.empty()) return elements;
     const std::string name = element("accessors", static_cast<std::size_t>(index));

@@ -12,8 +12,10 @@
 namespace boxwood {
 
 /// An accessor without a buffer view is all zeros (but for its sparse values) and takes no room in the file, so that a
-/// few bytes could ask for all the memory there is. This many elements are the most it may have.
+/// few bytes could ask for all the memory there is. This many elements are the most it may have, and all that a scene reads the
+/// most they may have together.
 inline constexpr std::size_t largest_implicit_count = std::size_t{1} << 20;
+inline constexpr std::size_t largest_implicit_total = std::size_t{1} << 24;
 
 /// Elements of accessors[index] as floats, sparse values applied. Normalised integers become [-1, 1] or [0, 1] (glTF 2.0
 /// section 3.11), other integers their own value. `where` names the user of the accessor, for messages. Throws
@@ -29,8 +31,13 @@ std::vector<glm::vec4> read_colors(const GltfDocument& document, int index, cons
 std::span<const std::byte> view_bytes(const GltfDocument& document, int view, const std::string& where);
 
 /// Elements of an index accessor: scalars of unsigned 8, 16 or 32 bits. Throws like read_vec3, also for an index that
-/// equals the largest value of its type, which glTF forbids because some devices restart a primitive there.
-std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& where);
+/// equals the largest value of its type, which glTF forbids because some devices restart a primitive there. Warns of a byteStride,
+/// which glTF allows vertices alone.
+std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& where,
+                                        Warnings& warnings);
+
+/// Whether accessors[index] has any data in the file: a buffer view or sparse values. Throws InputError when there is no such accessor.
+bool has_data(const GltfDocument& document, int index, const std::string& where);
 
 /// Number of elements of accessors[index]. Throws InputError when there is no such accessor.
 std::size_t element_count(const GltfDocument& document, int index, const std::string& where);

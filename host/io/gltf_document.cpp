@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "io/gltf_extensions.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -79,13 +81,46 @@ nlohmann::json take_looks(nlohmann::json& root) {
     if (root.contains("/extensions/KHR_lights_punctual/lights"_json_pointer))
         looks["lights"] = std::move(root["extensions"]["KHR_lights_punctual"]["lights"]);
     root.erase("extensions");
-    looks["required"] = root.value("extensionsRequired", nlohmann::json::array());
     return looks;
+}
+
+/// What tinygltf refuses or follows unchecked; it is put back into the model that tinygltf makes.
+struct Withheld {
+    std::vector<std::size_t> strides;      ///< By buffer view, 0 for none.
+    std::vector<std::vector<int>> indices; ///< By mesh and primitive, -1 for none.
+};
+
+Withheld withhold(nlohmann::json& root) {
+    Withheld taken;
+    nlohmann::json none = nlohmann::json::array();
+    const auto list = [&none](nlohmann::json& owner, const char* key) -> nlohmann::json& {
+        return owner.contains(key) ? owner[key] : none;
+    };
+    for (nlohmann::json& view : list(root, "bufferViews")) {
+        taken.strides.push_back(view.value("byteStride", std::size_t{0}));
+        view.erase("byteStride");
+    }
+    for (nlohmann::json& mesh : list(root, "meshes")) {
+        std::vector<int>& indices = taken.indices.emplace_back();
+        for (nlohmann::json& primitive : list(mesh, "primitives")) {
+            indices.push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
+        }
+    }
+    return taken;
+}
+
+void put_back(const Withheld& taken, tinygltf::Model& model) {
+    for (std::size_t i = 0; i < model.bufferViews.size(); ++i) model.bufferViews[i].byteStride = taken.strides[i];
+    for (std::size_t i = 0; i < model.meshes.size(); ++i)
+        for (std::size_t k = 0; k < model.meshes[i].primitives.size(); ++k)
+            model.meshes[i].primitives[k].indices = taken.indices[i][k];
 }
 
 // tinygltf turns checked JSON into typed structures. It gets neither buffers nor images, so it opens no file.
 tinygltf::Model make_model(nlohmann::json root, const std::string& file) {
     root.erase("buffers");
+    const Withheld taken = withhold(root);
     const std::string text = root.dump();
     root.clear();
     if (text.size() > std::numeric_limits<unsigned>::max()) throw InputError(file, "JSON", "is longer than 4 GiB");
@@ -96,8 +131,9 @@ tinygltf::Model make_model(nlohmann::json root, const std::string& file) {
     const auto length = static_cast<unsigned>(text.size());
     if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), length, "", tinygltf::NO_REQUIRE)) {
         while (!error.empty() && error.back() == '\n') error.pop_back();
-        throw InputError(file, "", error.empty() ? "is not readable as glTF" : error);
+        throw InputError(file, "", error.empty() ? "is not readable as glTF" : excerpt(error));
     }
+    put_back(taken, model);
     return model;
 }
 
@@ -112,22 +148,25 @@ void GltfDocument::fail(const std::string& where, const std::string& what) const
 }
 
 std::vector<std::byte> read_regular_file(const std::filesystem::path& path, const std::string& name,
-                                         const std::string& where) {
+                                         const std::string& where, const std::string& shown) {
+    const auto fail = [&](const std::string& what) {
+        throw InputError(name, where, what + (shown.empty() ? "" : ": " + excerpt(shown)));
+    };
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(name, where, "does not exist");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(name, where, "is not a regular file");
+    if (!std::filesystem::exists(status)) fail("does not exist");
+    if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) throw InputError(name, where, "cannot be opened");
+    if (error || !stream) fail("cannot be opened");
     std::vector<std::byte> bytes(size);
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (stream.gcount() != static_cast<std::streamsize>(size))
-        throw InputError(name, where, "cannot be read to its end");
+    if (stream.gcount() != static_cast<std::streamsize>(size)) fail("cannot be read to its end");
     return bytes;
 }
 
-GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const std::filesystem::path& folder) {
+GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const std::filesystem::path& folder,
+                       Warnings& warnings) {
     if (bytes.empty()) throw InputError(file, "", "is empty");
     Container container{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}};
     if (is_glb(bytes)) container = open_glb(bytes, file);
@@ -136,9 +175,10 @@ GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const
     document.file = std::move(file);
     nlohmann::json root = parse_gltf_json(container.json, document.file);
     check_required_extensions(root, document.file);
-    check_gltf_fields(root, document.file);
+    warn_of_extensions(root, warnings);
+    check_gltf_fields(root, document.file, warnings);
     document.folder = folder;
-    load_buffers(document, root, container.binary);
+    load_buffers(document, root, container.binary, warnings);
     document.looks = take_looks(root);
     document.model = make_model(std::move(root), document.file);
     return document;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <optional>
@@ -13,6 +14,8 @@
 #include "io/gltf_materials.hpp"
 #include "io/gltf_mesh.hpp"
 #include "io/gltf_nodes.hpp"
+#include "io/gltf_size.hpp"
+#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
@@ -21,14 +24,25 @@ namespace {
 
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
+/// False when certainly every triangle is a point or a line, such as after a file's numbers were rounded.
+bool has_area(const Mesh& mesh) {
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const glm::uvec3& t) {
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+    });
+}
+
 class Importer {
 public:
-    explicit Importer(const GltfDocument& document) : document_(document), model_(document.model) {}
+    Importer(const GltfDocument& document, Warnings& warnings)
+        : document_(document), model_(document.model), warnings_(warnings) {}
 
     Scene load() {
-        const std::vector<PlacedNode> nodes = place_nodes(document_);
+        const std::vector<PlacedNode> nodes = place_nodes(document_, warnings_);
+        const std::vector<bool> used = used_meshes(nodes);
+        check_size(document_, nodes, used, host_memory());
         load_materials(document_, scene_, warnings_);
-        load_used_meshes(nodes);
+        load_used_meshes(used);
         for (const PlacedNode& placed : nodes) {
             add_instances(placed);
             if (auto camera = load_camera(document_, placed, warnings_)) scene_.cameras.push_back(std::move(*camera));
@@ -39,8 +53,8 @@ public:
     }
 
 private:
-    // Meshes that some node shows, in file order. One without triangles gets no place in the scene.
-    void load_used_meshes(const std::vector<PlacedNode>& nodes) {
+    // By mesh of the file, whether some node shows it.
+    std::vector<bool> used_meshes(const std::vector<PlacedNode>& nodes) {
         std::vector<bool> used(model_.meshes.size(), false);
         for (const PlacedNode& placed : nodes) {
             const int mesh = model_.nodes[placed.node].mesh;
@@ -50,12 +64,21 @@ private:
             }
             used[static_cast<std::size_t>(mesh)] = true;
         }
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (!used[i]) warnings_.add_repeated(element("meshes", i), "is shown by no node of the scene, left out");
+        return used;
+    }
+
+    // Meshes that some node shows, in file order. One without triangles gets no place in the scene.
+    void load_used_meshes(const std::vector<bool>& used) {
         places_.resize(used.size());
         for (std::size_t i = 0; i < used.size(); ++i) {
             if (!used[i]) continue;
             Mesh mesh = load_mesh(document_, i, scene_.counts, warnings_);
             if (mesh.triangles.empty()) continue;
             places_[i] = static_cast<std::uint32_t>(scene_.meshes.size());
+            if (!has_area(mesh))
+                warnings_.add(element("meshes", i), "no triangle has an area, so that no ray meets it");
             bounds_.push_back(mesh_bounds(mesh.positions));
             scene_.meshes.push_back(std::move(mesh));
         }
@@ -99,9 +122,9 @@ private:
         const tinygltf::Value& attributes = extension.Get("attributes");
         for (const std::string& name : attributes.Keys()) {
             const std::size_t elements =
-                element_count(document_, attributes.Get(name).GetNumberAsInt(), where + "." + name);
+                element_count(document_, attributes.Get(name).GetNumberAsInt(), where + "." + excerpt(name));
             if (count && *count != elements)
-                document_.fail(where + "." + name, "differs in count from the other attributes");
+                document_.fail(where + "." + excerpt(name), "differs in count from the other attributes");
             count = elements;
         }
         if (!count) document_.fail(where, "has no attribute");
@@ -127,7 +150,7 @@ private:
     const GltfDocument& document_;
     const tinygltf::Model& model_;
     Scene scene_;
-    Warnings warnings_;
+    Warnings& warnings_;
     std::vector<std::optional<std::uint32_t>> places_; ///< By mesh of the file: its index in the scene.
     std::vector<MeshBounds> bounds_;                   ///< By mesh of the scene.
 };
@@ -136,8 +159,9 @@ private:
 
 Scene load_gltf_memory(std::span<const std::byte> bytes, std::string file, const std::filesystem::path& folder) {
     try {
-        const GltfDocument document = open_gltf(bytes, file, folder);
-        return Importer(document).load();
+        Warnings warnings;
+        const GltfDocument document = open_gltf(bytes, file, folder, warnings);
+        return Importer(document, warnings).load();
     } catch (const std::bad_alloc&) {
         throw InputError(file, "", "needs more memory than there is");
     } catch (const std::length_error&) {

@@ -6,6 +6,7 @@
 
 #include "boxwood/error.hpp"
 #include "io/gltf_document.hpp"
+#include "io/gltf_extensions.hpp"
 #include "io/gltf_fields.hpp"
 #include "io/gltf_json_reader.hpp"
 
@@ -15,19 +16,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array neutral_prefixes{"KHR_materials_",   "KHR_texture_",   "KHR_lights_", "KHR_xmp",
-                                      "EXT_materials_",   "EXT_texture_",   "EXT_lights_", "MSFT_texture_",
-                                      "ADOBE_materials_", "KHR_animation_", "KHR_audio",   "GOOGLE_texture_"};
-constexpr std::array supported{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
-
-template <class List>
-bool contains(const List& list, const std::string& word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-
 template <class F>
 void check_accessor(const F& accessor) {
-    accessor.index("bufferView");
+    accessor.reference("bufferView");
     accessor.size("byteOffset");
     accessor.one_of("componentType", {5120, 5121, 5122, 5123, 5125, 5126});
     accessor.size("count", true);
@@ -53,8 +44,12 @@ void check_buffer_view(const F& view) {
     view.size("byteLength", true);
     view.size("byteStride");
     const json* stride = view.find("byteStride");
-    if (stride != nullptr && (*stride < 4 || *stride > 252 || stride->get<std::uint64_t>() % 4 != 0)) {
-        view.fail("byteStride", "is not a multiple of 4 from 4 to 252");
+    if (stride == nullptr) return;
+    if (*stride == 0) {
+        view.warn("byteStride", "is 0, which glTF forbids; taken as absent");
+        view.erase("byteStride");
+    } else if (*stride < 4 || *stride > 252 || stride->get<std::uint64_t>() % 4 != 0) {
+        view.warn("byteStride", "is not a multiple of 4 from 4 to 252; followed as it is");
     }
 }
 
@@ -63,34 +58,38 @@ std::size_t array_size(const json& root, const char* key) {
     return found == root.end() ? 0 : found->size();
 }
 
-// tinygltf follows the indices of every primitive to their buffer view, so that they have to be right even in a mesh
-// that no node shows.
 template <class F>
-void check_primitive(const json& root, const json& value, const F& primitive) {
+void check_primitive(const json& root, json& value, const F& primitive) {
     primitive.index_map("attributes", true);
-    primitive.index("indices");
-    primitive.index("material");
+    primitive.reference("indices");
+    primitive.reference("material");
     primitive.index("mode");
-    if (const json* indices = primitive.find("indices")) {
+    primitive.object("extensions").object(draco);          // is one
+    if (const json* indices = primitive.find("indices")) { // right even in a mesh that no node shows
         const auto index = indices->get<std::size_t>();
         if (index >= array_size(root, "accessors")) primitive.fail("indices", "names an accessor that does not exist");
         const json& accessor = root["accessors"][index];
         const auto view = accessor.find("bufferView");
-        if (view == accessor.end() || view->get<std::size_t>() >= array_size(root, "bufferViews")) {
-            primitive.fail("indices", "names an accessor without a bufferView that exists");
-        }
+        if (view != accessor.end() && view->get<std::size_t>() >= array_size(root, "bufferViews"))
+            primitive.fail("indices", "names an accessor whose bufferView does not exist");
     }
     const auto targets = value.find("targets");
     if (targets == value.end()) return;
     if (!targets->is_array()) primitive.fail("targets", "is not an array");
-    for (const json& target : *targets) primitive.check_index_map(target, "targets");
+    for (json& target : *targets) primitive.check_index_map(target, "targets");
+}
+
+template <class F>
+void check_light_of(const F& extension) {
+    extension.find("light", true);
+    extension.reference("light");
 }
 
 template <class F>
 void check_node(const F& node) {
-    node.index("mesh");
-    node.index("camera");
-    node.index("skin");
+    node.reference("mesh");
+    node.reference("camera");
+    node.reference("skin");
     node.indices("children");
     node.numbers("matrix", 16);
     node.numbers("translation", 3);
@@ -99,8 +98,7 @@ void check_node(const F& node) {
     node.string("name");
     if (node.find("extensions") == nullptr) return;
     const auto extensions = node.object("extensions");
-    if (extensions.find("KHR_lights_punctual") != nullptr)
-        extensions.object("KHR_lights_punctual").index("light", true);
+    if (extensions.find("KHR_lights_punctual") != nullptr) check_light_of(extensions.object("KHR_lights_punctual"));
     if (extensions.find("EXT_mesh_gpu_instancing") == nullptr) return;
     extensions.object("EXT_mesh_gpu_instancing").index_map("attributes", true);
 }
@@ -119,46 +117,49 @@ void check_camera(const F& camera) {
     }
 }
 
-void check_asset(const json& root, const std::string& file) {
-    const auto top = [] { return std::string(); };
-    const Fields fields(root, file, top);
+template <class F>
+void check_asset(const F& fields, const std::string& file) {
     const auto asset = fields.object("asset", true);
     asset.string("version", true);
     asset.string("minVersion");
-    const auto version = root["asset"]["version"].get<std::string>();
-    if (!version.starts_with("2.")) throw InputError(file, "asset.version", "is " + version + "; only 2.x can be read");
+    const auto version = asset.find("version")->template get<std::string>();
+    if (!version.starts_with("2."))
+        throw InputError(file, "asset.version", "is " + excerpt(version) + "; only 2.x can be read");
     const json* minimum = asset.find("minVersion");
     if (minimum != nullptr && *minimum != "2.0") {
         throw InputError(file, "asset.minVersion",
-                         "asks for a reader of " + minimum->get<std::string>() + "; this one is of 2.0");
+                         "asks for a reader of " + excerpt(minimum->template get<std::string>()) +
+                             "; this one is of 2.0");
     }
 }
 
 } // namespace
 
-void check_gltf_fields(const json& root, const std::string& file) {
+void check_gltf_fields(json& root, const std::string& file, Warnings& warnings) {
+    const FieldReport report{file, warnings};
     const auto top = [] { return std::string(); };
-    check_asset(root, file);
-    Fields(root, file, [] { return std::string(); }).index("scene");
-    for_each(root, "accessors", file, top, [](const json&, const auto& f) { check_accessor(f); });
-    for_each(root, "bufferViews", file, top, [](const json&, const auto& f) { check_buffer_view(f); });
-    for_each(root, "buffers", file, top, [](const json&, const auto& f) {
+    const Fields fields(&root, report, top);
+    check_asset(fields, file);
+    fields.reference("scene");
+    for_each(root, "accessors", report, top, [](const json&, const auto& f) { check_accessor(f); });
+    for_each(root, "bufferViews", report, top, [](const json&, const auto& f) { check_buffer_view(f); });
+    for_each(root, "buffers", report, top, [](const json&, const auto& f) {
         f.size("byteLength", true);
         f.string("uri");
     });
-    for_each(root, "meshes", file, top, [&](const json& mesh, const auto& f) {
+    for_each(root, "meshes", report, top, [&](json& mesh, const auto& f) {
         f.string("name");
         for_each(
-            mesh, "primitives", file, [&f] { return f.path() + "."; },
-            [&root](const json& value, const auto& primitive) { check_primitive(root, value, primitive); });
+            mesh, "primitives", report, [&f] { return f.path() + "."; },
+            [&root](json& value, const auto& primitive) { check_primitive(root, value, primitive); });
     });
-    for_each(root, "nodes", file, top, [](const json&, const auto& f) { check_node(f); });
-    for_each(root, "cameras", file, top, [](const json&, const auto& f) { check_camera(f); });
-    for_each(root, "scenes", file, top, [](const json&, const auto& f) {
+    for_each(root, "nodes", report, top, [](const json&, const auto& f) { check_node(f); });
+    for_each(root, "cameras", report, top, [](const json&, const auto& f) { check_camera(f); });
+    for_each(root, "scenes", report, top, [](const json&, const auto& f) {
         f.string("name");
         f.indices("nodes");
     });
-    check_gltf_looks(root, file);
+    check_gltf_looks(root, report);
 }
 
 json parse_gltf_json(std::string_view text, const std::string& file) {
@@ -167,23 +168,6 @@ json parse_gltf_json(std::string_view text, const std::string& file) {
     json root = reader.take();
     if (!root.is_object()) throw InputError(file, "JSON", "is not an object (is this a glTF file?)");
     return root;
-}
-
-void check_required_extensions(const json& root, const std::string& file) {
-    const auto required = root.find("extensionsRequired");
-    if (required == root.end()) return;
-    if (!required->is_array()) throw InputError(file, "extensionsRequired", "is not an array");
-    for (std::size_t i = 0; i < required->size(); ++i) {
-        const json& name = (*required)[i];
-        if (!name.is_string()) throw InputError(file, element("extensionsRequired", i), "is not a string");
-        const auto& word = name.get_ref<const std::string&>();
-        const bool neutral = std::any_of(neutral_prefixes.begin(), neutral_prefixes.end(),
-                                         [&word](const char* prefix) { return word.starts_with(prefix); });
-        if (!neutral && !contains(supported, word)) {
-            throw InputError(file, element("extensionsRequired", i),
-                             "asks for " + word + ", which is not supported; export the scene without it");
-        }
-    }
 }
 
 } // namespace boxwood

@@ -10,7 +10,8 @@
 namespace boxwood {
 
 /// Builds a JSON document from parser events and leaves out, key by key, what Boxwood never reads: animations and the like
-/// never take memory, and no kept value is nested so deeply that a recursive pass over it could run out of stack.
+/// never take memory, and no kept value is nested so deeply that a recursive pass over it could run out of stack. A whole
+/// number is kept as an integer however it is written: 4, 4.0 and 4e0 are the same number in JSON.
 /// The parser itself does not recurse. Every failure is thrown as an InputError.
 class GltfJsonReader : public nlohmann::json_sax<nlohmann::json> {
 public:
@@ -23,7 +24,7 @@ public:
     bool boolean(bool value) override { return add(value); }
     bool number_integer(number_integer_t value) override { return add(value); }
     bool number_unsigned(number_unsigned_t value) override { return add(value); }
-    bool number_float(number_float_t value, const string_t&) override { return add(value); }
+    bool number_float(number_float_t value, const string_t&) override;
     bool string(string_t& value) override { return add(std::move(value)); }
     bool binary(binary_t& value) override { return add(std::move(value)); }
     bool start_object(std::size_t) override { return open(nlohmann::json::object()); }
@@ -34,6 +35,12 @@ public:
     bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override;
 
 private:
+    /// An "extensions" object that is open.
+    struct Extensions {
+        std::size_t depth;        ///< Where its keys are: names of extensions.
+        bool has_foreign = false; ///< Some extension in it was left out.
+    };
+
     bool keep(const std::string& key);
     bool skips();
     bool add(nlohmann::json value);
@@ -43,10 +50,10 @@ private:
 
     const std::string& file_;
     nlohmann::json root_;
-    std::vector<nlohmann::json*> open_; ///< The kept objects and arrays around the next value.
-    std::string key_;                   ///< Of the next value, when it goes into an object.
-    std::string section_;               ///< Key in the root that we are under.
-    std::size_t extension_depth_ = 0;   ///< Where the keys are names of extensions; 0 outside any "extensions".
+    std::vector<nlohmann::json*> open_;  ///< The kept objects and arrays around the next value.
+    std::string key_;                    ///< Of the next value, when it goes into an object.
+    std::string section_;                ///< Key in the root that we are under.
+    std::vector<Extensions> extensions_; ///< The "extensions" around the next value.
     bool skip_next_ = false;
     std::size_t skipped_depth_ = 0; ///< Objects and arrays open inside a value that is left out.
 };

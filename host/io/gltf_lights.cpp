@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/gltf_numbers.hpp"
+#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
@@ -53,7 +54,7 @@ glm::vec3 direction_of(const glm::dvec3& v) {
 std::optional<Light> load_light(const GltfDocument& document, const PlacedNode& placed, Warnings& warnings) {
     const tinygltf::Node& node = document.model.nodes[placed.node];
     const auto found = node.extensions.find(extension);
-    if (found == node.extensions.end()) return std::nullopt;
+    if (found == node.extensions.end() || !found->second.Has("light")) return std::nullopt;
     const std::string node_name = element("nodes", placed.node);
     const int index = found->second.Get("light").GetNumberAsInt();
     const json& lights = document.looks["lights"];
@@ -66,6 +67,10 @@ std::optional<Light> load_light(const GltfDocument& document, const PlacedNode& 
     Light light;
     light.name = node.name.empty() ? from.value("name", std::string()) : node.name;
     const std::string type = from["type"].get<std::string>();
+    if (type != "point" && type != "spot" && type != "directional") {
+        warnings.add(where + ".type", "is \"" + excerpt(type) + "\", which glTF does not know; light left out");
+        return std::nullopt;
+    }
     light.kind = type == "point" ? LightKind::point : type == "spot" ? LightKind::spot : LightKind::directional;
     const auto intensity = load_intensity(from, where, warnings);
     if (!intensity) return std::nullopt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks of what a glTF file says about materials, textures and lights; numbers out of range are corrected where they are read.
+#include "io/gltf_extensions.hpp"
 #include "io/gltf_fields.hpp"
 
 namespace boxwood {
@@ -24,11 +25,19 @@ void check_texture_info(const F& owner, const char* key) {
 }
 
 template <class F>
+void check_alpha_mode(const F& material) {
+    const nlohmann::json* mode = material.find("alphaMode");
+    if (mode == nullptr || *mode == "OPAQUE" || *mode == "MASK" || *mode == "BLEND") return;
+    material.warn("alphaMode", "is not a mode that glTF knows; taken as OPAQUE");
+    material.erase("alphaMode");
+}
+
+template <class F>
 void check_material(const F& material) {
     material.string("name");
     for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"}) check_texture_info(material, key);
     material.numbers("emissiveFactor", 3);
-    if (material.find("alphaMode") != nullptr) material.one_of("alphaMode", {"OPAQUE", "MASK", "BLEND"});
+    check_alpha_mode(material);
     material.number("alphaCutoff");
     material.boolean("doubleSided");
     if (material.find("pbrMetallicRoughness") != nullptr) {
@@ -44,12 +53,15 @@ void check_material(const F& material) {
     extensions.object("KHR_materials_emissive_strength").number("emissiveStrength");
     extensions.object("KHR_materials_specular").number("specularFactor");
     extensions.object("KHR_materials_unlit");
+    const auto glossy = extensions.object(specular_glossiness);
+    glossy.numbers("diffuseFactor", 4);
+    check_texture_info(glossy, "diffuseTexture");
 }
 
 template <class F>
 void check_light(const F& light) {
     light.string("name");
-    light.one_of("type", {"point", "spot", "directional"});
+    light.string("type", true);
     light.numbers("color", 3);
     light.number("intensity");
     light.number("range");
@@ -61,28 +73,28 @@ void check_light(const F& light) {
 
 } // namespace
 
-void check_gltf_looks(const nlohmann::json& root, const std::string& file) {
+void check_gltf_looks(nlohmann::json& root, const FieldReport& report) {
     const auto top = [] { return std::string(); };
-    for_each(root, "materials", file, top, [](const auto&, const auto& f) { check_material(f); });
-    for_each(root, "textures", file, top, [](const auto&, const auto& f) {
-        f.index("source");
-        f.index("sampler");
+    for_each(root, "materials", report, top, [](const auto&, const auto& f) { check_material(f); });
+    for_each(root, "textures", report, top, [](const auto&, const auto& f) {
+        f.reference("source");
+        f.reference("sampler");
     });
-    for_each(root, "samplers", file, top, [](const auto&, const auto& f) {
+    for_each(root, "samplers", report, top, [](const auto&, const auto& f) {
         for (const char* key : {"wrapS", "wrapT", "magFilter"}) f.index(key);
     });
-    for_each(root, "images", file, top, [](const auto&, const auto& f) {
+    for_each(root, "images", report, top, [](const auto&, const auto& f) {
         f.string("name");
         f.string("uri");
-        f.index("bufferView");
+        f.reference("bufferView");
     });
     if (root.find("extensions") == root.end()) return;
-    const auto extensions = Fields(root, file, top).object("extensions");
+    const auto extensions = Fields(&root, report, top).object("extensions");
     if (extensions.find("KHR_lights_punctual") == nullptr) return;
     extensions.object("KHR_lights_punctual"); // is one
     const std::string path = "extensions.KHR_lights_punctual.";
     for_each(
-        *extensions.find("KHR_lights_punctual"), "lights", file, [&path] { return path; },
+        *extensions.find("KHR_lights_punctual"), "lights", report, [&path] { return path; },
         [](const auto&, const auto& f) { check_light(f); });
 }
 

@@ -11,8 +11,10 @@
 
 #include "boxwood/error.hpp"
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_extensions.hpp"
 #include "io/gltf_numbers.hpp"
 #include "io/picture.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -23,10 +25,6 @@ using nlohmann::json;
 constexpr Range share{0.0f, 1.0f};
 constexpr Range any{-largest_coordinate, largest_coordinate};
 
-constexpr std::array<std::string_view, 7> read_extensions{
-    "KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_lights_punctual", "KHR_mesh_quantization",  "EXT_mesh_gpu_instancing"};
-
 /// Places in the scene of what the file has, by index in the file.
 using Places = std::vector<std::optional<std::uint32_t>>;
 
@@ -36,7 +34,6 @@ public:
         : document_(document), looks_(document.looks), scene_(scene), warnings_(warnings) {}
 
     void load() {
-        warn_of_required();
         for (std::size_t i = 0; i < looks_["images"].size(); ++i)
             images_.push_back(load_image(looks_["images"][i], element("images", i)));
         for (std::size_t i = 0; i < looks_["textures"].size(); ++i)
@@ -46,16 +43,6 @@ public:
     }
 
 private:
-    /// Extensions of looks alone never refuse a file, but what one replaces is then read in its place.
-    void warn_of_required() {
-        const json& required = looks_["required"];
-        for (std::size_t i = 0; i < required.size(); ++i) {
-            const auto& name = required[i].get_ref<const std::string&>();
-            if (std::find(read_extensions.begin(), read_extensions.end(), name) == read_extensions.end())
-                warnings_.add(element("extensionsRequired", i), name + " is not read; what is there without it is");
-        }
-    }
-
     /// Elements that name the same bytes share one image.
     std::optional<std::uint32_t> load_image(const json& from, const std::string& where) {
         const std::string source = from.contains("bufferView") ? "view " + std::to_string(from["bufferView"].get<int>())
@@ -73,8 +60,8 @@ private:
                 image.bytes.assign(bytes.begin(), bytes.end());
             } else if (from.contains("uri")) {
                 const auto& uri = from["uri"].get_ref<const std::string&>();
-                image.bytes = load_uri(document_, uri, where + ".uri");
-                if (image.name.empty() && !uri.starts_with("data:")) image.name = uri;
+                image.bytes = load_uri(document_, uri, where + ".uri", warnings_);
+                if (image.name.empty() && !is_data_uri(uri)) image.name = excerpt(uri);
             } else {
                 document_.fail(where, "has neither a uri nor a bufferView");
             }
@@ -173,8 +160,20 @@ private:
         material.alpha_mode = mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
         material.alpha_cutoff = number_at(from, "alphaCutoff", 0.5f, {0.0f, largest_coordinate}, where, warnings_);
         material.double_sided = from.value("doubleSided", false);
+        if (!from.contains("pbrMetallicRoughness")) load_specular_glossiness(from, where, material);
         load_extensions(from, where, material);
         return material;
+    }
+
+    /// The diffuse part stands in for the whole: base colour of a surface that is no metal, and as rough as the default.
+    void load_specular_glossiness(const json& from, const std::string& where, Material& material) {
+        const json& extensions = object_at(from, "extensions");
+        if (!extensions.contains(specular_glossiness)) return;
+        const json& glossy = extensions[specular_glossiness];
+        const std::string inside = where + ".extensions." + specular_glossiness;
+        material.base_color = vector_at(glossy, "diffuseFactor", glm::vec4(1.0f), share, inside, warnings_);
+        material.base_color_texture = load_use(glossy, "diffuseTexture", inside);
+        material.metallic = 0.0f;
     }
 
     void load_extensions(const json& from, const std::string& where, Material& material) {

@@ -9,12 +9,11 @@
 
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_attributes.hpp"
+#include "io/gltf_extensions.hpp"
 
 namespace boxwood {
 
 namespace {
-
-constexpr std::size_t most_warnings = 100;
 
 /// The vertices that one primitive may name: `count` of them from `first` on.
 struct VertexRange {
@@ -40,6 +39,7 @@ public:
     }
 
     Mesh load() {
+        if (source_.primitives.empty()) warnings_.add(where_, "has no primitives");
         for (std::size_t i = 0; i < source_.primitives.size(); ++i) {
             add_primitive(source_.primitives[i], element(where_ + ".primitives", i));
         }
@@ -60,12 +60,21 @@ private:
         }
         const auto positions = primitive.attributes.find("POSITION");
         if (positions == primitive.attributes.end()) return warnings_.add(where, "has no positions, skipped");
+        if (primitive.extensions.contains(draco) && !has_all_data(primitive, where))
+            return warnings_.add(where, "has no data but what KHR_draco_mesh_compression holds, left out");
         if (!primitive.targets.empty()) warnings_.add(where, "morph targets are left out, base positions are used");
 
         const VertexRange range = add_vertices(primitive, where + ".attributes");
         first_new_triangle_ = mesh_.triangles.size();
         add_triangles(primitive.mode, vertex_order(primitive, range, where + ".indices"), where);
+        if (mesh_.triangles.size() == first_new_triangle_) warnings_.add(where, "makes no triangle");
         add_materials(primitive, where + ".material");
+    }
+
+    /// Positions and, where it has any, indices.
+    bool has_all_data(const tinygltf::Primitive& primitive, const std::string& where) const {
+        return has_data(document_, primitive.attributes.at("POSITION"), where + ".attributes.POSITION") &&
+               (primitive.indices < 0 || has_data(document_, primitive.indices, where + ".indices"));
     }
 
     VertexRange add_vertices(const tinygltf::Primitive& primitive, const std::string& attributes) {
@@ -113,7 +122,7 @@ private:
             for (std::size_t i = 0; i < range.count; ++i) order[i] = static_cast<std::uint32_t>(range.first + i);
             return order;
         }
-        order = read_indices(document_, primitive.indices, where);
+        order = read_indices(document_, primitive.indices, where, warnings_);
         for (std::size_t i = 0; i < order.size(); ++i) {
             if (order[i] >= range.count) {
                 document_.fail(element(where, i), "is " + std::to_string(order[i]) + " where there are " +
@@ -127,7 +136,8 @@ private:
     // The three vertices of every triangle as glTF 2.0 section 3.7.2.1 orders them, so that all face the same way.
     void add_triangles(int mode, const std::vector<std::uint32_t>& v, const std::string& where) {
         if (mode == TINYGLTF_MODE_TRIANGLES) {
-            if (v.size() % 3 != 0) warnings_.add(where, "the vertices after the last whole triangle are left out");
+            if (v.size() % 3 != 0 && v.size() > 3)
+                warnings_.add(where, "the vertices after the last whole triangle are left out");
             for (std::size_t i = 0; i + 2 < v.size(); i += 3) mesh_.triangles.emplace_back(v[i], v[i + 1], v[i + 2]);
             return;
         }
@@ -193,19 +203,6 @@ private:
 };
 
 } // namespace
-
-void Warnings::add(const std::string& where, const std::string& what) {
-    if (lines_.size() < most_warnings) {
-        lines_.push_back(where + ": " + what);
-    } else {
-        ++more_;
-    }
-}
-
-std::vector<std::string> Warnings::take() {
-    if (more_ > 0) lines_.push_back("and " + std::to_string(more_) + " more warnings");
-    return std::move(lines_);
-}
 
 Mesh load_mesh(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings) {
     return MeshLoader(document, index, counts, warnings).load();

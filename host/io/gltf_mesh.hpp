@@ -2,23 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <vector>
 
 #include "io/gltf_document.hpp"
+#include "io/gltf_warnings.hpp"
 
 namespace boxwood {
-
-/// The warnings of an import: the first hundred, then only how many more there were.
-class Warnings {
-public:
-    void add(const std::string& where, const std::string& what);
-    std::vector<std::string> take();
-
-private:
-    std::vector<std::string> lines_;
-    std::size_t more_ = 0;
-};
 
 /// The triangle primitives of meshes[index], concatenated; primitives that share all accessors of vertices share
 /// the vertices. Triangles that use a vertex that is not finite or out of range are dropped and counted, with a warning;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_nodes.hpp"
 
+#include <cmath>
+
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -48,7 +50,31 @@ std::vector<std::size_t> find_roots(const GltfDocument& document) {
     return roots;
 }
 
-std::vector<std::size_t> scene_roots(const GltfDocument& document) {
+/// Of the nodes that a scene lists, those that are not there already: below another one, or listed before.
+std::vector<std::size_t> without_repeats(const GltfDocument& document, const std::vector<std::size_t>& listed,
+                                         const std::string& where, Warnings& warnings) {
+    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
+    std::vector<bool> there(nodes.size(), false);
+    std::vector<std::size_t> stack = listed;
+    for (std::vector<std::size_t> below; !stack.empty(); stack.swap(below), below.clear())
+        for (const std::size_t node : stack)
+            for (const int child : nodes[node].children) {
+                const auto index = static_cast<std::size_t>(child);
+                if (!there[index]) below.push_back(index);
+                there[index] = true;
+            }
+    std::vector<std::size_t> roots;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        if (there[listed[i]])
+            warnings.add_repeated(element(where, i), "names a node that is in the scene already; it is there once");
+        else
+            roots.push_back(listed[i]);
+        there[listed[i]] = true;
+    }
+    return roots;
+}
+
+std::vector<std::size_t> scene_roots(const GltfDocument& document, Warnings& warnings) {
     const tinygltf::Model& model = document.model;
     std::vector<std::size_t> roots = find_roots(document);
     if (model.defaultScene >= 0 && !GltfDocument::has(model.defaultScene, model.scenes.size())) {
@@ -64,7 +90,7 @@ std::vector<std::size_t> scene_roots(const GltfDocument& document) {
         }
         roots.push_back(static_cast<std::size_t>(node));
     }
-    return roots;
+    return without_repeats(document, roots, element("scenes", scene) + ".nodes", warnings);
 }
 
 template <class Vector>
@@ -73,13 +99,17 @@ Vector value_or(const std::vector<double>& values, Vector otherwise) {
     return otherwise;
 }
 
-glm::dmat4 local_transform(const GltfDocument& document, std::size_t index) {
+glm::dmat4 local_transform(const GltfDocument& document, std::size_t index, Warnings& warnings) {
     const tinygltf::Node& node = document.model.nodes[index];
     if (!node.matrix.empty()) {
-        const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-        if (glm::row(matrix, 3) != glm::dvec4(0, 0, 0, 1)) {
-            document.fail(element("nodes", index) + ".matrix", "is not affine: its last row is not 0 0 0 1");
-        }
+        glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
+        const std::string where = element("nodes", index) + ".matrix";
+        const glm::dvec4 row = glm::row(matrix, 3);
+        constexpr double rounding = 0x1p-20; // a few units in the last place of float
+        if (glm::dvec3(row) != glm::dvec3(0.0) || !(std::abs(row.w - 1.0) <= rounding))
+            document.fail(where, "is not affine: its last row is not 0 0 0 1");
+        if (row.w != 1.0) warnings.add_repeated(where, "has a last element that is not quite 1; taken as 1");
+        matrix[3][3] = 1.0;
         return matrix;
     }
     if (node.rotation.empty() && node.scale.empty() && node.translation.empty()) return glm::dmat4(1.0);
@@ -97,21 +127,18 @@ glm::dmat4 compose(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale
             glm::dvec4(translation, 1.0)};
 }
 
-std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
+std::vector<PlacedNode> place_nodes(const GltfDocument& document, Warnings& warnings) {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-    const std::vector<std::size_t> roots = scene_roots(document);
+    const std::vector<std::size_t> roots = scene_roots(document, warnings);
     std::vector<Pending> stack;
     for (std::size_t i = roots.size(); i-- > 0;) stack.push_back({roots[i], nullptr});
 
     std::vector<PlacedNode> placed;
     placed.reserve(nodes.size()); // each is placed once at most, so that pointers to parents stay valid
-    std::vector<bool> visited(nodes.size(), false);
     while (!stack.empty()) {
         const Pending next = stack.back();
         stack.pop_back();
-        if (visited[next.node]) document.fail(element("nodes", next.node), "is in the scene twice");
-        visited[next.node] = true;
-        const glm::dmat4 local = local_transform(document, next.node);
+        const glm::dmat4 local = local_transform(document, next.node, warnings);
         placed.push_back({next.node, next.parent != nullptr ? *next.parent * local : local});
         const std::vector<int>& children = nodes[next.node].children;
         for (std::size_t i = children.size(); i-- > 0;) {

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "io/gltf_document.hpp"
+#include "io/gltf_warnings.hpp"
 
 namespace boxwood {
 
@@ -17,9 +18,10 @@ struct PlacedNode {
 };
 
 /// The nodes of the default scene (else of scene 0, else below every root) depth first, children in file order.
-/// Transforms are composed in double. Throws InputError for an index out of range, a node that is its own ancestor or
-/// has two parents, a scene that lists a node twice, or a matrix that is not affine. O(nodes), without recursion.
-std::vector<PlacedNode> place_nodes(const GltfDocument& document);
+/// Transforms are composed in double. A node that the scene lists twice, or beside a node above it, is there once, with a warning.
+/// Throws InputError for an index out of range, a node that is its own ancestor or has two parents, or a matrix that is not
+/// affine. O(nodes), without recursion.
+std::vector<PlacedNode> place_nodes(const GltfDocument& document, Warnings& warnings);
 
 /// T R S of glTF; `rotation` is a quaternion (x, y, z, w) of any length but zero, for which the result is not finite.
 glm::dmat4 compose(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale);

@@ -11,9 +11,11 @@ namespace boxwood {
 /// is used (its triangle primitives concatenated), with its attributes and materials, one Instance per node with a mesh and
 /// per EXT_mesh_gpu_instancing transform, in depth-first node order. Skins and morph targets load in rest pose with a warning.
 /// Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of looks cannot
-/// be used is replaced or left out with a warning (a picture that is missing, a number out of range, a required extension that
-/// is not read). Throws InputError naming the file and the element, also for a required extension that changes geometry and is
-/// not supported.
+/// be used is replaced or left out with a warning (a picture that is missing, a number out of range). Each extension that the file
+/// uses and that is not read is a warning saying what stands in for it; so is what shows nothing (a mesh that no node shows or
+/// without triangles), and what exporters get wrong without harm (null, references of -1, forbidden strides). Throws InputError
+/// naming the file and the element, also for a required extension that changes geometry and is not supported, and for a file that
+/// asks for more than 2^24 elements without data, or for more memory than there is.
 Scene load_gltf(const std::filesystem::path& file);
 
 /// Writes `scene` as binary glTF (meshes, nodes, cameras, materials, pictures, lights), atomically: on failure no file is left

@@ -75,8 +75,6 @@ TEST_CASE("an index out of range or a restart value is refused by name") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9;
     CHECK(fixture.fault() == "meshes[0].primitives[0].attributes.POSITION");
-    fixture.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -1;
-    CHECK(fixture.fault() == "meshes[0].primitives[0].attributes");
     fixture = test::triangle_fixture();
     fixture.root["meshes"][0]["primitives"][0]["indices"] = 9;
     CHECK(fixture.fault() == "meshes[0].primitives[0].indices");

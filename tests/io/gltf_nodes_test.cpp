@@ -73,7 +73,8 @@ TEST_CASE("which scene: the default one, else the first, else every root") {
     fixture.root["scenes"][0]["nodes"] = {3};
     CHECK(fixture.fault() == "scenes[0].nodes[0]");
     fixture.root["scenes"][0]["nodes"] = {1, 1};
-    CHECK(fixture.fault() == "nodes[1]");
+    CHECK(names() == "b");
+    CHECK(fixture.load().warnings.at(0).starts_with("scenes[0].nodes[1]: names a node that is in the scene already"));
 }
 
 TEST_CASE("nodes that are no tree are refused") {
