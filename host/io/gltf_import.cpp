@@ -8,6 +8,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
+#include "boxwood/rounding.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_camera.hpp"
 #include "io/gltf_lights.hpp"
@@ -48,6 +49,10 @@ public:
             if (auto camera = load_camera(document_, placed, warnings_)) scene_.cameras.push_back(std::move(*camera));
             if (auto light = load_light(document_, placed, warnings_)) scene_.lights.push_back(std::move(*light));
         }
+        if (collapses(scene_))
+            warnings_.add("scene",
+                          "every instance is too small for floats so far from the origin, so that hardly a ray meets "
+                          "anything; move it to the origin or enlarge it");
         scene_.warnings = warnings_.take();
         return std::move(scene_);
     }

@@ -33,10 +33,14 @@ double distance_bound(const glm::dmat4& transform, const MeshBounds& bounds) {
 }
 
 double distance_of(const glm::dmat4& transform, const std::vector<glm::vec3>& positions) {
+    const glm::dmat3 linear(transform);
+    const glm::dvec3 place(transform[3]);
     glm::dvec3 distance(0.0);
     for (const glm::vec3& position : positions) {
-        const glm::dvec3 exact = place(transform, position);
-        distance = glm::max(distance, glm::abs(exact - glm::dvec3(glm::vec3(exact))));
+        // The difference of floats comes first: double rounds the sum too, and of a mesh of 1e-20 at 1 leaves nothing.
+        const glm::dvec3 offset = linear * glm::dvec3(position);
+        const glm::dvec3 rounded(glm::vec3(place + offset));
+        distance = glm::max(distance, glm::abs((place - rounded) + offset));
     }
     return largest(distance);
 }
@@ -67,6 +71,20 @@ std::optional<Rounding> worst_rounding(const Scene& scene) {
         if (rounding.fraction() > largest_fraction) worst = rounding;
     }
     return worst;
+}
+
+bool collapses(const Scene& scene) {
+    std::vector<std::optional<MeshBounds>> bounds(scene.meshes.size());
+    bool some = false;
+    for (const Instance& instance : scene.instances) {
+        std::optional<MeshBounds>& box = bounds[instance.mesh];
+        if (!box) box = mesh_bounds(scene.meshes[instance.mesh].positions);
+        const glm::dmat4 transform(instance.transform);
+        const double size = placed_size(transform, *box);
+        if (distance_bound(transform, *box) < 0.5 * size) return false;
+        some = some || size > 0.0;
+    }
+    return some;
 }
 
 std::string words(const Rounding& rounding, const Scene& scene) {

@@ -33,6 +33,10 @@ Rounding rounding_of(const Scene& scene, std::uint32_t instance);
 /// otherwise. O(vertices + instances), and as rounding_of for each instance that its mesh's box does not rule out.
 std::optional<Rounding> worst_rounding(const Scene& scene);
 
+/// True when every instance of a valid scene is no larger than the distance of neighbouring floats at its place, in world space. Rays
+/// begin and end in such floats, so that hardly one meets anything, also with two levels. O(vertices + instances).
+bool collapses(const Scene& scene);
+
 /// For reports, without an end: instances[0] of meshes[0] "ball" by up to 0.25 units, 2.5 % of its size
 std::string words(const Rounding& rounding, const Scene& scene);
 

@@ -132,9 +132,15 @@ TEST_CASE("what shows nothing is named") {
               f.root["accessors"][0]["count"] = 0;
               f.root["meshes"][0]["primitives"][0].erase("indices");
           }) == Lines{"meshes[0].primitives[0]: makes no triangle"});
+    CHECK(warnings([](GltfFixture& f) {
+              f.root["nodes"][0]["scale"] = {1e-20, 1e-20, 1e-20};
+              f.root["nodes"][0]["translation"] = {1, 2, 3};
+          })
+              .at(0)
+              .starts_with("scene: every instance is too small for floats so far from the origin"));
     // Positions that rounding put into one point, and into a line.
     for (const std::vector<float>& corners : {std::vector<float>{1e8f, 1e8f, 1e8f, 1e8f, 1e8f, 1e8f, 1e8f, 1e8f, 1e8f},
-                                              std::vector<float>{1e8f, 0, 0, 1e8f, 1, 0, 1e8f, 1, 0}}) {
+                                              std::vector<float>{1e3f, 0, 0, 1e3f, 1, 0, 1e3f, 1, 0}}) {
         GltfFixture fixture;
         fixture.show({{"attributes", {{"POSITION", fixture.positions(corners)}}}});
         CHECK(fixture.load().warnings == Lines{"meshes[0]: no triangle has an area, so that no ray meets it"});

@@ -122,4 +122,38 @@ TEST_CASE("rounding: the worst instance, the first of equals, named with its mes
     CHECK_FALSE(worst_rounding(scene));
 }
 
+TEST_CASE("rounding: what double would lose too is counted, however small the mesh") {
+    for (const float size : {1e-10f, 1e-20f, 1e-30f, 1e-35f}) {
+        CAPTURE(size);
+        glm::mat4 transform = moved({1, 2, 3});
+        for (int k = 0; k < 3; ++k) transform[k][k] = size;
+        const Scene scene = placed_sphere(transform);
+        CHECK(rounding_of(scene, 0).fraction() == doctest::Approx(0.5));
+        REQUIRE(worst_rounding(scene));
+    }
+}
+
+TEST_CASE("rounding: a scene collapses when each of its instances does, at any scale") {
+    CHECK_FALSE(collapses(Scene{}));
+    for (const float scale : {0x1p-40f, 1.0f, 0x1p40f}) {
+        CAPTURE(scale);
+        const auto at = [scale](float size, float x) {
+            glm::mat4 transform = moved({scale * x, 0, 0});
+            for (int k = 0; k < 3; ++k) transform[k][k] = 0.5f * size * scale;
+            return placed_sphere(transform);
+        };
+        CHECK_FALSE(collapses(at(1.0f, 0.0f)));
+        CHECK_FALSE(collapses(at(1e-6f, 1.0f)));
+        CHECK_FALSE(collapses(at(1e-20f, 0.0f)));
+        CHECK(collapses(at(1e-8f, 1.0f)));
+        CHECK(collapses(at(1e-20f, 1.0f)));
+        Scene two = at(1e-20f, 1.0f);
+        two.instances.push_back(two.instances[0]);
+        two.instances[1].transform[3] = glm::vec4(-scale, 0, 0, 1);
+        CHECK(collapses(two));
+        two.instances[1].transform[0] = glm::vec4(scale, 0, 0, 0);
+        CHECK_FALSE(collapses(two));
+    }
+}
+
 TEST_SUITE_END();
