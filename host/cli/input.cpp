@@ -9,15 +9,15 @@
 #include "boxwood/gltf.hpp"
 #include "boxwood/rays.hpp"
 #include "boxwood/rounding.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 
 void print_warnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
     constexpr std::size_t most = 5;
+    constexpr std::size_t longest_warning = 1000; // those of a .bxw file hold anything
     for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i) {
-        std::string line = warnings[i]; // may name an element of the scene, and that holds anything
-        std::replace(line.begin(), line.end(), '\n', ' ');
-        std::cerr << "boxwood: warning: " << file.string() << ": " << line << '\n';
+        std::cerr << "boxwood: warning: " << file.string() << ": " << excerpt(warnings[i], longest_warning) << '\n';
     }
     if (warnings.size() > most)
         std::cerr << "boxwood: warning: " << file.string() << ": and " << warnings.size() - most

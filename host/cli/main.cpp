@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // boxwood: the command line tool. Finds the command and turns every error into one line and an exit code.
-#include <algorithm>
 #include <iostream>
 #include <new>
 
 #include "cli/command.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 
@@ -13,9 +13,9 @@ namespace {
 enum ExitCode { done = 0, failed = 1, usage = 2, bad_input = 3, no_device = 4, interrupted = 130 };
 
 /// One line on standard error. Messages of several lines, such as listings, are joined.
-ExitCode fail(ExitCode code, std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::cerr << "boxwood: " << message << '\n';
+ExitCode fail(ExitCode code, const std::string& message) {
+    constexpr std::size_t longest = 8000; // room for two paths
+    std::cerr << "boxwood: " << excerpt(message, longest) << '\n';
     return code;
 }
 

@@ -5,8 +5,8 @@
 
 namespace boxwood {
 
-std::string excerpt(std::string_view text) {
-    std::size_t length = std::min(text.size(), longest_excerpt);
+std::string excerpt(std::string_view text, std::size_t longest) {
+    std::size_t length = std::min(text.size(), longest);
     const auto continues = [&text](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80; };
     // A sequence has at most three bytes after its first; what has more is no UTF-8 and may be cut anywhere.
     for (int i = 0; i < 3 && length > 0 && length < text.size() && continues(length); ++i) --length;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,8 @@ namespace boxwood {
 inline constexpr std::size_t longest_excerpt = 160;
 
 /// `text` as messages quote it: names, addresses and words from outside may be of any length, so that what is longer than
-/// longest_excerpt is cut there, never inside a UTF-8 sequence, and ends in "... (N bytes)" with its whole length. Control
+/// `longest` bytes is cut there, never inside a UTF-8 sequence, and ends in "... (N bytes)" with its whole length. Control
 /// characters become spaces, so that a message stays one line.
-std::string excerpt(std::string_view text);
+std::string excerpt(std::string_view text, std::size_t longest = longest_excerpt);
 
 } // namespace boxwood

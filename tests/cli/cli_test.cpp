@@ -196,3 +196,31 @@ TEST_CASE("cli: outputs replace older ones, and names may have spaces") {
     CHECK(tool.succeed("info 'my tree.bxw'").out.find(".bxw file") != std::string::npos);
     CHECK(tool.files() == Names{"forest.glb", "my tree.bxw"});
 }
+
+TEST_CASE("cli: of names and words of any length in a file, messages show an excerpt") {
+    const Tool tool;
+    const std::string longest(100'000, 'n');
+    Json scene = {{"asset", {{"version", "2.0"}}}, {"extensionsUsed", {longest}}};
+    scene["cameras"] = {{{"type", "orthographic"},
+                         {"name", longest},
+                         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
+    scene["nodes"] = {{{"camera", 0}, {"name", longest}}};
+    scene["images"] = {{{"uri", longest}}};
+    tool.write("names.gltf", scene.dump());
+    const Run info = tool.succeed("info names.gltf");
+    CHECK(info.out.size() < 2000);
+    CHECK(info.out.find("(100000 bytes)") != std::string::npos);
+    CHECK(info.err.size() < 2000);
+    for (const char* wrong : {"trace names.gltf --camera none", "trace names.gltf --fov 30"}) {
+        const Run run = tool.run(wrong);
+        CHECK(run.code != 0);
+        CHECK(run.err.size() < 3000);
+        CHECK(run.err.find("(100000 bytes)") != std::string::npos);
+    }
+    scene["extensionsUsed"] = Json::array({"ACME_short"});
+    scene["extensionsRequired"] = {longest};
+    tool.write("required.gltf", scene.dump());
+    const Run refused = tool.run("info required.gltf");
+    check_failure(refused, 3, "which is not supported");
+    CHECK(refused.err.size() < 1000);
+}

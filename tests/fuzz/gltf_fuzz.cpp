@@ -44,6 +44,11 @@ const Sample& sample() {
         const std::string bytes = test::read_bytes(folder.path() / "sample.glb");
         const std::size_t length = word_at(bytes, 12);
         Sample result{json::parse(bytes.substr(20, length)), bytes.substr(28 + length), {}};
+        result.root["buffers"].push_back({{"byteLength", 4}, {"uri", "data:,text"}});
+        result.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+        result.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = 0;
+        result.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+            {"diffuseFactor", {1, 0.5, 0, 1}}, {"diffuseTexture", {{"index", 0}}}};
         const json flat = result.root.flatten();
         for (const auto& [place, value] : flat.items()) result.places.push_back(place);
         return result;
@@ -53,9 +58,22 @@ const Sample& sample() {
 
 /// What a value is replaced by.
 const std::array<json, 16>& hostile_values() {
-    static const std::array<json, 16> values{
-        nullptr, true,          0,     1,       2,         -1, 7, 0x7fffffff, 0xffffffffu, std::uint64_t{1} << 53, 0.5,
-        1e300,   json::array(), "ccc", -1e-300, {{"a", 1}}};
+    static const std::array<json, 16> values{nullptr,
+                                             true,
+                                             0,
+                                             1,
+                                             2,
+                                             -1,
+                                             7,
+                                             0x7fffffff,
+                                             0xffffffffu,
+                                             std::uint64_t{1} << 53,
+                                             0.5,
+                                             1e300,
+                                             json::array(),
+                                             "data:;base64,_-%3D",
+                                             -1e-300,
+                                             {{"a", 1}}};
     return values;
 }
 

@@ -22,6 +22,8 @@ TEST_CASE("excerpt: short text whole, long text cut with its length, never insid
     }
     CHECK(
         excerpt(std::string(1000, '\x80')).starts_with(std::string(longest_excerpt - 3, '\x80') + "... (")); // no UTF-8
+    CHECK(excerpt(std::string(300, 'x'), 300) == std::string(300, 'x'));
+    CHECK(excerpt(std::string(301, 'x'), 300) == std::string(300, 'x') + "... (301 bytes)");
 }
 
 TEST_CASE("excerpt: control characters become spaces, so that a message is one line") {
