@@ -26,7 +26,7 @@ public:
 private:
     Aabb widened(const Aabb& box) const;
     AreaCell child(const AreaCell& parent, const Aabb& box) const;
-    /// Every area that meets the cell encloses it: no part of it would tell more (thesis 4.4).
+    /// Every area that meets the cell encloses it: no part of it would tell more (paper 6.1.1).
     bool is_homogeneous(const AreaCell& cell) const;
     static void make_leaf(const AreaCell& cell, std::uint32_t node, AreaIndex& index);
     /// The parts of a split, and the node that makes it but for its children.

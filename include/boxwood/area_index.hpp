@@ -12,8 +12,8 @@
 
 namespace boxwood {
 
-/// How the areas that a point lies in are found: by trying the box of each, by an octree of five levels (paper section 7, thesis
-/// 4.4), or by a k-d tree whose planes are sides of their boxes.
+/// How the areas that a point lies in are found: by trying the box of each, by an octree of five levels (paper 6.1.1, thesis
+/// 3.3), or by a k-d tree whose planes are sides of their boxes.
 enum class AreaIndexKind { automatic, list, octree, kd };
 
 /// The words used in options, reports and on the command line. to_area_index throws InputError listing them.
