@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Uses each layer of an installed Boxwood once, so that a header or a library missing from the package shows.
+#include "use_boxwood.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -7,7 +9,7 @@
 
 #include <boxwood/boxwood.hpp>
 
-int main() {
+bool use_boxwood() {
     boxwood::Device device;
     const std::vector<std::uint32_t> numbers = {1, 2, 3, 4};
     const auto in = boxwood::upload(device, numbers, "numbers");
@@ -24,5 +26,5 @@ int main() {
     const bool good = boxwood::download(device, sum)[0] == 10 && report.nodes > 0 &&
                       again.scene.triangle_count() == scene.triangle_count();
     std::cout << "consumer: " << report.nodes << " nodes, " << (good ? "good" : "wrong") << '\n';
-    return good ? 0 : 1;
+    return good;
 }
