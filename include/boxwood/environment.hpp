@@ -23,8 +23,10 @@ struct Environment {
 /// A clear sky that is brightest at the sun, over grey ground, for scenes without light. The horizon's radiance is near 1.
 Environment default_sky();
 
-/// Reads R, G, B of an OpenEXR file as such a picture. Negative values and NaN become 0, larger ones and infinity
-/// largest_radiance, counted in one line of `warnings`, which does not repeat the name. Throws InputError when the file cannot be read, lacks a channel, or has more than 2^26 pixels.
+/// Reads R, G and B of an OpenEXR file as such a picture, of the first part that has them; where none has, Y as grey. Infinity of 16
+/// bits becomes 65504, their largest value; negative values and NaN become 0, larger ones and infinity of 32 bits largest_radiance;
+/// either is counted in a line of `warnings`, which does not repeat the name. Throws InputError when the file cannot be read, has more
+/// than 2^26 pixels, or has other channels, which it names.
 Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 } // namespace boxwood

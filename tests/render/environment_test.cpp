@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -12,9 +11,7 @@
 
 #include "bounds/lanes_of.hpp"
 #include "boxwood/error.hpp"
-#include "boxwood/image.hpp"
 #include "boxwood/material.hpp"
-#include "io/samples.hpp"
 #include "render/environment.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
@@ -337,32 +334,4 @@ TEST_CASE("environment: what is no radiance is refused, and its pixel named") {
         picture.pixels[4].z = value;
         CHECK(refused(picture) == "pixels[4]");
     }
-}
-
-TEST_CASE("environment: an OpenEXR file comes back, what is no radiance as the nearest, with a warning") {
-    const TemporaryFolder folder;
-    const std::filesystem::path file = folder.path() / "light.exr";
-    Image image{3, 2, {}};
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>{1, 2, 3, 4, 5, 6}});
-    std::get<std::vector<float>>(image.channels[1].samples)[4] = -1.0f;
-    std::get<std::vector<float>>(image.channels[0].samples)[3] = std::numeric_limits<float>::infinity();
-    std::get<std::vector<float>>(image.channels[1].samples)[3] = 2e18f;
-    std::get<std::vector<float>>(image.channels[2].samples)[3] = -std::numeric_limits<float>::infinity();
-    std::get<std::vector<float>>(image.channels[2].samples)[5] = std::numeric_limits<float>::quiet_NaN();
-    save_exr(file, image);
-    std::vector<std::string> warnings;
-    const Environment e = load_environment(file, warnings);
-    CHECK(e.width == 3);
-    CHECK(e.height == 2);
-    CHECK(e.pixels[1] == glm::vec3(2.0f));
-    CHECK(e.pixels[3] == glm::vec3(largest_radiance, largest_radiance, 0));
-    CHECK(e.pixels[4] == glm::vec3(5, 0, 5));
-    CHECK(e.pixels[5] == glm::vec3(6, 6, 0));
-    REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].starts_with("5 values"));
-    image.channels.pop_back();
-    save_exr(file, image);
-    CHECK_THROWS_AS(load_environment(file, warnings), InputError);
-    std::filesystem::remove(file);
-    CHECK_THROWS_AS(load_environment(file, warnings), InputError);
 }
