@@ -4,7 +4,7 @@
 //
 // GROUP_SIZE  work-items per work-group.
 // compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 WIDE_TEXELS=1
 #include "render/path_sum.h"
 #include "render/spot.h"
 #include "shared/ray.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes of sRGB (IEC 61966-2-1) as linear light.
+// Values of sRGB (IEC 61966-2-1) as linear light.
 #ifndef BOXWOOD_RENDER_SRGB_H
 #define BOXWOOD_RENDER_SRGB_H
 
@@ -40,5 +40,14 @@ constant float srgb_to_linear[256] = {
     0x1.ad771p-1f, 0x1.b1995ep-1f, 0x1.b5c198p-1f, 0x1.b9efbep-1f, 0x1.be23d4p-1f, 0x1.c25ddep-1f, 0x1.c69ddcp-1f, 0x1.cae3d2p-1f,
     0x1.cf2fcp-1f, 0x1.d381aap-1f, 0x1.d7d994p-1f, 0x1.dc377ep-1f, 0x1.e09b6ap-1f, 0x1.e5055cp-1f, 0x1.e97556p-1f, 0x1.edeb5cp-1f,
     0x1.f2676cp-1f, 0x1.f6e98cp-1f, 0x1.fb71bcp-1f, 0x1p0f};
+
+/// The same of 16 bits, within 2^-22 of it: (1 + e)^2.4 up to e^3, around the nearest byte on the curve.
+inline float wide_srgb_to_linear(uint code) {
+    if (code <= 2650u) return (float)code / 846712.2f; // 65535 * 12.92
+    const uint byte = max((code + 128u) / 257u, 11u);
+    const int nearest = (int)(257u * byte);
+    const float e = (float)((int)code - nearest) / ((float)nearest + 3604.425f); // 65535 * 0.055
+    return srgb_to_linear[byte] * (1.0f + e * (2.4f + e * (1.68f + e * 0.224f)));
+}
 
 #endif

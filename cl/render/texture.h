@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Textures, filtered over the footprint of a beam (dissertation 3.7.6).
 //
+// WIDE_TEXELS  1 where some texture has 16 bits
 // FILTER  0 nearest texel, without levels of detail; 1 trilinear: the level whose texels are as wide as the footprint's longer
 //         axis, as for the cone of Akenine-Moller et al. 2019; 2 anisotropic: up to 16 trilinear taps along that axis, of the
 //         level for the shorter one (after McCormack et al. 1999)
@@ -13,18 +14,32 @@
 #if !defined(FILTER) || FILTER < 0 || FILTER > 2
 #error "define FILTER (0 nearest, 1 trilinear, 2 anisotropic)"
 #endif
+#if !defined(WIDE_TEXELS)
+#error "define WIDE_TEXELS (1 where some texture has 16 bits)"
+#endif
 
 #define WRAP_REPEAT 0u
 #define WRAP_MIRROR 1u
 #define MOST_TAPS 16
 
-/// Linear colour and alpha.
-inline float4 decode_texel(uint texel, uint srgb) {
+/// Linear colour and alpha of a texel of bytes.
+inline float4 decode_bytes(uint texel, uint format) {
     const uchar4 bytes = as_uchar4(texel);
-    if (srgb)
+    if (format & BOXWOOD_SRGB)
         return (float4)(srgb_to_linear[bytes.x], srgb_to_linear[bytes.y], srgb_to_linear[bytes.z], (float)bytes.w / 255.0f);
     return convert_float4(bytes) / 255.0f;
 }
+
+#if WIDE_TEXELS
+/// Likewise of 16 bits.
+inline float4 decode_wide(uint2 texel, uint format) {
+    const uint4 codes = (uint4)(texel.x & 0xffffu, texel.x >> 16, texel.y & 0xffffu, texel.y >> 16);
+    if (format & BOXWOOD_SRGB)
+        return (float4)(wide_srgb_to_linear(codes.x), wide_srgb_to_linear(codes.y), wide_srgb_to_linear(codes.z),
+                        (float)codes.w / 65535.0f);
+    return convert_float4(codes) / 65535.0f;
+}
+#endif
 
 /// A texture coordinate brought to [0, 1]. The remainders are exact but for tiny negative coordinates, which give 1; what is not
 /// finite gives 0.
@@ -48,26 +63,41 @@ inline float2 wrap_coordinates(global const TextureRecord* texture, float2 uv) {
 typedef struct Level {
     global const uint* texels;
     int width, height;
+    uint format;
 } Level;
+
+/// A texel of a level, linear, by its number in rows.
+inline float4 read_texel(const Level* level, size_t number) {
+#if WIDE_TEXELS
+    if (level->format & BOXWOOD_WIDE) return decode_wide(vload2(number, level->texels), level->format);
+#endif
+    return decode_bytes(level->texels[number], level->format);
+}
 
 inline void find_level(global const TextureRecord* texture, global const uint* texels, uint number, Level* level) {
     uint width = texture->width, height = texture->height;
     size_t first = texture->first_texel;
+#if WIDE_TEXELS
+    const uint words = texture->format & BOXWOOD_WIDE ? 2u : 1u;
+#else
+    const uint words = 1;
+#endif
     for (; number != 0; --number) {
-        first += (size_t)width * height;
+        first += (size_t)width * height * words;
         width = max(width >> 1, 1u);
         height = max(height >> 1, 1u);
     }
     level->texels = texels + first;
     level->width = (int)width;
     level->height = (int)height;
+    level->format = texture->format;
 }
 
 /// The texel at `uv`, in [0, 1].
-inline float4 nearest_texel(const Level* level, uint srgb, float2 uv) {
+inline float4 nearest_texel(const Level* level, float2 uv) {
     const int x = min((int)(uv.x * (float)level->width), level->width - 1);
     const int y = min((int)(uv.y * (float)level->height), level->height - 1);
-    return decode_texel(level->texels[(size_t)y * level->width + x], srgb);
+    return read_texel(level, (size_t)y * level->width + x);
 }
 
 #if FILTER
@@ -84,11 +114,10 @@ inline float4 bilinear(global const TextureRecord* texture, const Level* level, 
     const float left = floor(x), top = floor(y);
     const int x0 = wrap_index((int)left, level->width, texture->wrap_u);
     const int x1 = wrap_index((int)left + 1, level->width, texture->wrap_u);
-    global const uint* row0 = level->texels + (size_t)wrap_index((int)top, level->height, texture->wrap_v) * level->width;
-    global const uint* row1 = level->texels + (size_t)wrap_index((int)top + 1, level->height, texture->wrap_v) * level->width;
-    const uint srgb = texture->srgb;
-    const float4 above = mix(decode_texel(row0[x0], srgb), decode_texel(row0[x1], srgb), x - left);
-    const float4 below = mix(decode_texel(row1[x0], srgb), decode_texel(row1[x1], srgb), x - left);
+    const size_t row0 = (size_t)wrap_index((int)top, level->height, texture->wrap_v) * level->width;
+    const size_t row1 = (size_t)wrap_index((int)top + 1, level->height, texture->wrap_v) * level->width;
+    const float4 above = mix(read_texel(level, row0 + x0), read_texel(level, row0 + x1), x - left);
+    const float4 below = mix(read_texel(level, row1 + x0), read_texel(level, row1 + x1), x - left);
     return mix(above, below, y - top);
 }
 
@@ -160,14 +189,14 @@ inline float4 sample_texture(global const TextureRecord* texture, global const u
     (void)along_y;
     Level level;
     find_level(texture, texels, 0, &level);
-    return nearest_texel(&level, texture->srgb, wrap_coordinates(texture, uv));
+    return nearest_texel(&level, wrap_coordinates(texture, uv));
 #else
     Footprint footprint;
     find_footprint(texture, along_x, along_y, &footprint);
     if (texture->nearest && footprint.longer <= 1.0f) {
         Level level;
         find_level(texture, texels, 0, &level);
-        return nearest_texel(&level, texture->srgb, wrap_coordinates(texture, uv));
+        return nearest_texel(&level, wrap_coordinates(texture, uv));
     }
     Levels levels;
 #if FILTER == 1

@@ -9,6 +9,10 @@
 #define BOXWOOD_DOUBLE_SIDED 4u
 #define BOXWOOD_UNLIT 8u
 
+// Bits of TextureRecord::format.
+#define BOXWOOD_SRGB 1u ///< R, G and B are encoded by sRGB.
+#define BOXWOOD_WIDE 2u ///< A texel is two words of two 16-bit values, else one of four bytes.
+
 // Places in MaterialRecord::textures.
 #define BOXWOOD_BASE_COLOR 0
 #define BOXWOOD_METALLIC_ROUGHNESS 1
@@ -43,16 +47,16 @@ typedef struct MaterialRecord {
 BOXWOOD_SHARED_SIZE(MaterialRecord, 224)
 
 /// A picture with its levels of detail, one behind the other in the texels of all, each half as large as the one before (at
-/// least 1 across). A texel has 4 bytes, R first; those of colours are sRGB.
+/// least 1 across). A texel has R in its lowest bits, then G, B and alpha.
 typedef struct TextureRecord {
-    uint first_texel; ///< Of level 0.
+    uint first_texel; ///< Of level 0, in words of the texels.
     uint width;
     uint height;
     uint levels;
     uint wrap_u; ///< 0 repeat, 1 mirror, 2 clamp.
     uint wrap_v;
     uint nearest;
-    uint srgb; ///< 1: R, G and B are encoded by sRGB.
+    uint format; ///< Bits, see above.
 } TextureRecord;
 BOXWOOD_SHARED_SIZE(TextureRecord, 32)
 

@@ -117,17 +117,38 @@ PictureSize picture_size(const EncodedImage& image) {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
+bool is_wide(const EncodedImage& image) {
+    if (picture_format(image.bytes) != PictureFormat::png) return false;
+    largest_block = smallest_limit;
+    const std::size_t head = std::min<std::size_t>(image.bytes.size(), smallest_limit);
+    return stbi_is_16_bit_from_memory(first_byte(image), static_cast<int>(head)) != 0;
+}
+
+namespace {
+
+/// By one of the decoder's functions, all pixels.
+template <class T, class Load>
+void decode(const EncodedImage& image, int bytes, Load load, std::vector<T>& rgba) {
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<T, void (*)(void*)> pixels(load(first_byte(image), bytes, &width, &height, &channels, 4),
+                                                     stbi_image_free);
+    if (pixels == nullptr) fail(image);
+    rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * static_cast<std::size_t>(width) * height);
+}
+
+} // namespace
+
 Picture decode_picture(const EncodedImage& image) {
     const int bytes = byte_count(image);
     const PictureSize size = picture_size(image);
+    const bool wide = is_wide(image);
     // The most that a decoder needs: 8 bytes a pixel and a filter byte a row, grown by doubling; the file, for its packed data.
     largest_block = smallest_limit + image.bytes.size() + std::size_t{32} * size.width * size.height;
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(first_byte(image), bytes, &width, &height, &channels, 4), stbi_image_free);
-    if (pixels == nullptr) fail(image);
-    Picture picture{{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, {}};
-    picture.rgba.assign(pixels.get(), pixels.get() + 4 * std::size_t{picture.size.width} * picture.size.height);
+    Picture picture{size, {}};
+    if (wide)
+        decode(image, bytes, stbi_load_16_from_memory, picture.rgba16);
+    else
+        decode(image, bytes, stbi_load_from_memory, picture.rgba);
     return picture;
 }
 

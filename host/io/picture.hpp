@@ -26,10 +26,14 @@ struct PictureSize {
 /// Of what the head of the file says, without decoding it. Throws InputError(image.name) when it is no PNG or JPEG.
 PictureSize picture_size(const EncodedImage& image);
 
-/// A decoded picture: 4 bytes per pixel, R first, rows from top to bottom; alpha 255 where the file has none, 16 bits rounded to 8.
+/// Whether a file has 16 bits per channel, by its head: PNG alone may. False for a file that is broken.
+bool is_wide(const EncodedImage& image);
+
+/// A decoded picture: 4 values per pixel, R first, rows from top to bottom; alpha is full where the file has none.
 struct Picture {
     PictureSize size;
     std::vector<std::uint8_t> rgba;
+    std::vector<std::uint16_t> rgba16{}; ///< In place of `rgba` where is_wide(): the same in 16 bits.
 };
 
 /// Throws InputError(image.name) when it cannot be decoded.

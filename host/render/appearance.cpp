@@ -67,14 +67,14 @@ Appearance upload_appearance(Device& device, const Scene& scene, const ShadingRe
         {"materials of triangles", needs.materials ? scene.triangle_count() : 0, sizeof(std::uint32_t)},
         {"materials", materials.size(), sizeof(MaterialRecord)},
         {"textures", textures.records().size(), sizeof(TextureRecord)},
-        {"texels", textures.texel_count(), sizeof(std::uint32_t)},
+        {"texels", textures.word_count(), sizeof(std::uint32_t)},
         {"lights", light_limit(scene, needs), sizeof(LightRecord) + 2 * sizeof(LightNode)}};
     check_fits(device, buffers, "what shading reads");
 
     Appearance appearance;
     appearance.requirements = needs;
-    if (textures.texel_count() > 0) {
-        appearance.texels = make_buffer<std::uint32_t>(device, textures.texel_count(), "texels");
+    if (textures.word_count() > 0) {
+        appearance.texels = make_buffer<std::uint32_t>(device, textures.word_count(), "texels");
         textures.decode(device, appearance.texels, warnings);
     }
     std::vector<glm::dvec3> emission;

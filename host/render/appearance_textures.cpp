@@ -55,7 +55,6 @@ void TextureSet::add(std::uint32_t texture, bool srgb, std::vector<std::string>&
     record.wrap_u = wrap_number(from.wrap_u);
     record.wrap_v = wrap_number(from.wrap_v);
     record.nearest = from.nearest ? 1u : 0u;
-    record.srgb = srgb ? 1u : 0u;
     records_.push_back(record);
     set_record(records_.size() - 1);
 }
@@ -63,31 +62,45 @@ void TextureSet::add(std::uint32_t texture, bool srgb, std::vector<std::string>&
 std::size_t TextureSet::add_source(std::uint32_t image, bool srgb, std::vector<std::string>& warnings) {
     const auto [known, added] = sources_by_image_.try_emplace({image, srgb}, sources_.size());
     if (!added) return known->second;
-    Source source{image, srgb, texel_count_, {1, 1}, true, grey_mean};
+    Source source{image, srgb, word_count_};
+    source.replace();
     try {
-        const PictureSize size = picture_size(scene_.images[image]);
+        Source whole = source;
+        whole.size = picture_size(scene_.images[image]);
+        whole.wide = is_wide(scene_.images[image]);
+        whole.replaced = false;
+        const std::uint64_t pixels = std::uint64_t{whole.size.width} * whole.size.height;
         // Each replaced picture behind this one has its texel, too.
-        if (std::uint64_t{size.width} * size.height > most_texels || texel_count_ + level_texels(size) > most_texels) {
+        if (pixels > most_texels || word_count_ + whole.words() > most_texels)
             warn(scene_, image,
-                 std::to_string(size.width) + " x " + std::to_string(size.height) +
-                     " pixels are more than there is room for in all textures, 2^28",
+                 std::to_string(whole.size.width) + " x " + std::to_string(whole.size.height) +
+                     (whole.wide ? " pixels of 16 bits" : " pixels") +
+                     " are more than there is room for in all textures, 2^28 of 8 bits",
                  warnings);
-        } else {
-            source.size = size;
-            source.replaced = false;
-        }
+        else
+            source = whole;
     } catch (const InputError& error) {
         warn(scene_, image, reason_of(error), warnings);
     }
-    texel_count_ += level_texels(source.size);
+    word_count_ += source.words();
     sources_.push_back(source);
     return sources_.size() - 1;
+}
+
+std::uint64_t TextureSet::Source::words() const { return level_texels(size) * (wide ? 2 : 1); }
+
+void TextureSet::Source::replace() {
+    replaced = true;
+    size = {1, 1};
+    wide = false;
+    mean = grey_mean;
 }
 
 void TextureSet::set_record(std::size_t index) {
     const Source& source = sources_[source_of_record_[index]];
     TextureRecord& record = records_[index];
-    record.first_texel = static_cast<std::uint32_t>(source.first_texel);
+    record.first_texel = static_cast<std::uint32_t>(source.first_word);
+    record.format = (source.srgb ? BOXWOOD_SRGB : 0u) | (source.wide ? BOXWOOD_WIDE : 0u);
     record.width = source.size.width;
     record.height = source.size.height;
     record.levels = level_count(source.size);
@@ -98,9 +111,7 @@ void TextureSet::decode(Device& device, BufferView<std::uint32_t> texels, std::v
         std::vector<std::uint32_t> levels{grey_texel};
         const auto replace = [&](const std::string& reason) {
             warn(scene_, source.image, reason, warnings);
-            source.replaced = true;
-            source.size = {1, 1};
-            source.mean = grey_mean;
+            source.replace();
         };
         try {
             if (!source.replaced) {
@@ -113,7 +124,7 @@ void TextureSet::decode(Device& device, BufferView<std::uint32_t> texels, std::v
         } catch (const std::bad_alloc&) {
             replace("needs more memory than there is");
         }
-        write(device, std::span<const std::uint32_t>(levels), texels, source.first_texel);
+        write(device, std::span<const std::uint32_t>(levels), texels, source.first_word);
     }
     for (std::size_t i = 0; i < records_.size(); ++i) set_record(i);
 }

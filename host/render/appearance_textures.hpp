@@ -17,7 +17,7 @@
 
 namespace boxwood {
 
-/// The most texels of all textures of a scene.
+/// The most texels of all textures of a scene; those of 16 bits count twice.
 inline constexpr std::uint64_t most_texels = std::uint64_t{1} << 28;
 
 /// Plans first, so that capacity is known before anything is decoded. A picture that several textures show is there once, twice
@@ -28,10 +28,11 @@ public:
     /// line in `warnings`.
     TextureSet(const Scene& scene, const std::vector<bool>& used, std::vector<std::string>& warnings);
 
-    std::uint64_t texel_count() const { return texel_count_; }
+    /// Words of all texels.
+    std::uint64_t word_count() const { return word_count_; }
     const std::vector<TextureRecord>& records() const { return records_; }
 
-    /// Decodes into `texels`, of texel_count() elements. What fails is replaced as above.
+    /// Decodes into `texels`, of word_count() elements. What fails is replaced as above.
     void decode(Device& device, BufferView<std::uint32_t> texels, std::vector<std::string>& warnings);
 
     /// What an input of a material reads, after decode(). Of a normal texture that is replaced: none.
@@ -45,10 +46,14 @@ private:
     struct Source {
         std::uint32_t image;
         bool srgb;
-        std::uint64_t first_texel;
-        PictureSize size;
-        bool replaced;
-        glm::dvec3 mean;
+        std::uint64_t first_word;
+        bool replaced = true;
+        PictureSize size{1, 1};
+        bool wide = false;
+        glm::dvec3 mean{0.0};
+
+        std::uint64_t words() const;
+        void replace();
     };
 
     void add(std::uint32_t texture, bool srgb, std::vector<std::string>& warnings);
@@ -61,7 +66,7 @@ private:
     std::vector<std::size_t> source_of_record_;
     std::map<std::pair<std::uint32_t, bool>, std::size_t> sources_by_image_;
     std::map<std::pair<std::uint32_t, bool>, std::uint32_t> records_by_texture_;
-    std::uint64_t texel_count_ = 0;
+    std::uint64_t word_count_ = 0;
 };
 
 } // namespace boxwood

@@ -13,7 +13,10 @@ Defines scene_defines(const Device& device, const Geometry& geometry, const Shad
         {"UV_SETS", std::to_string(requirements.uv_sets)}, {"COLORS", flag(requirements.colors)},
         {"TEXTURES", flag(requirements.textures)},         {"LANES", std::to_string(device.tuning().lanes)}};
     // TextureFilter counts down from the best one.
-    if (requirements.textures) defines["FILTER"] = std::to_string(2 - static_cast<int>(filter));
+    if (requirements.textures) {
+        defines["FILTER"] = std::to_string(2 - static_cast<int>(filter));
+        defines["WIDE_TEXELS"] = flag(requirements.wide_texels);
+    }
     return defines;
 }
 

@@ -12,14 +12,15 @@ namespace {
 
 double linear_of_srgb(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
-/// Between 8 bits and linear values, of one channel.
+/// Between codes of 8 or 16 bits and linear values, of one channel.
 struct Encoding {
-    std::array<float, 256> linear{};
-    std::array<float, 255> midway{}; ///< Linear value from which on the next code is nearer.
+    std::vector<float> linear;
+    std::vector<float> midway; ///< Linear value from which on the next code is nearer.
 
-    explicit Encoding(bool srgb) {
+    Encoding(bool srgb, std::size_t codes) : linear(codes), midway(codes - 1) {
+        const double largest = static_cast<double>(codes - 1);
         for (std::size_t i = 0; i < linear.size(); ++i) {
-            const double code = static_cast<double>(i) / 255.0, next = (static_cast<double>(i) + 0.5) / 255.0;
+            const double code = static_cast<double>(i) / largest, next = (static_cast<double>(i) + 0.5) / largest;
             linear[i] = static_cast<float>(srgb ? linear_of_srgb(code) : code);
             if (i < midway.size()) midway[i] = static_cast<float>(srgb ? linear_of_srgb(next) : next);
         }
@@ -29,8 +30,10 @@ struct Encoding {
     }
 };
 
+template <class Code>
 const Encoding& encoding(bool srgb) {
-    static const Encoding plain(false), encoded(true);
+    constexpr std::size_t codes = std::size_t{1} << (8 * sizeof(Code));
+    static const Encoding plain(false, codes), encoded(true, codes);
     return srgb ? encoded : plain;
 }
 
@@ -81,11 +84,54 @@ Level shrink(PictureSize from, At at) {
     return level;
 }
 
-void append(const Level& level, bool srgb, std::vector<std::uint32_t>& texels) {
-    const Encoding& color = encoding(srgb);
+/// R in the lowest bits of the first word.
+template <class Code>
+void append(const std::array<std::uint32_t, 4>& codes, std::vector<std::uint32_t>& words) {
+    constexpr std::size_t bits = 8 * sizeof(Code), in_a_word = 32 / bits;
+    for (std::size_t c = 0; c < 4; c += in_a_word) {
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < in_a_word; ++i) word |= codes[c + i] << (bits * i);
+        words.push_back(word);
+    }
+}
+
+template <class Code>
+void append(const Level& level, bool srgb, std::vector<std::uint32_t>& words) {
+    const Encoding &color = encoding<Code>(srgb), &plain = encoding<Code>(false);
     for (const glm::vec4& texel : level.texels)
-        texels.push_back(color.code(texel.r) | color.code(texel.g) << 8 | color.code(texel.b) << 16 |
-                         encoding(false).code(texel.a) << 24);
+        append<Code>({color.code(texel.r), color.code(texel.g), color.code(texel.b), plain.code(texel.a)}, words);
+}
+
+template <class Code>
+std::vector<std::uint32_t> levels_of(PictureSize size, const std::vector<Code>& rgba, bool srgb) {
+    std::vector<std::uint32_t> words;
+    words.reserve(level_texels(size) * sizeof(Code));
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        append<Code>({rgba[i], rgba[i + 1], rgba[i + 2], rgba[i + 3]}, words);
+    const std::uint32_t levels = level_count(size);
+    if (levels == 1) return words;
+    const std::vector<float>&color = encoding<Code>(srgb).linear, &plain = encoding<Code>(false).linear;
+    Level level = shrink(size, [&](std::uint32_t x, std::uint32_t y) {
+        const Code* p = &rgba[4 * (std::size_t{y} * size.width + x)];
+        return glm::vec4(color[p[0]], color[p[1]], color[p[2]], plain[p[3]]);
+    });
+    append<Code>(level, srgb, words);
+    for (std::uint32_t i = 2; i < levels; ++i) {
+        level = shrink(level.size, [&level](std::uint32_t x, std::uint32_t y) {
+            return level.texels[std::size_t{y} * level.size.width + x];
+        });
+        append<Code>(level, srgb, words);
+    }
+    return words;
+}
+
+template <class Code>
+glm::dvec3 mean_of(const std::vector<Code>& rgba, bool srgb) {
+    const std::vector<float>& linear = encoding<Code>(srgb).linear;
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        sum += glm::dvec3(linear[rgba[i]], linear[rgba[i + 1]], linear[rgba[i + 2]]);
+    return sum / std::max(1.0, static_cast<double>(rgba.size() / 4));
 }
 
 } // namespace
@@ -103,36 +149,12 @@ std::uint64_t level_texels(PictureSize size) {
 }
 
 std::vector<std::uint32_t> texture_levels(const Picture& picture, bool srgb) {
-    std::vector<std::uint32_t> texels;
-    texels.reserve(level_texels(picture.size));
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        const std::uint8_t* p = &picture.rgba[i];
-        texels.push_back(std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
-                         std::uint32_t{p[3]} << 24);
-    }
-    const std::uint32_t levels = level_count(picture.size);
-    if (levels == 1) return texels;
-    const std::array<float, 256>&color = encoding(srgb).linear, &plain = encoding(false).linear;
-    Level level = shrink(picture.size, [&](std::uint32_t x, std::uint32_t y) {
-        const std::uint8_t* p = &picture.rgba[4 * (std::size_t{y} * picture.size.width + x)];
-        return glm::vec4(color[p[0]], color[p[1]], color[p[2]], plain[p[3]]);
-    });
-    append(level, srgb, texels);
-    for (std::uint32_t i = 2; i < levels; ++i) {
-        level = shrink(level.size, [&level](std::uint32_t x, std::uint32_t y) {
-            return level.texels[std::size_t{y} * level.size.width + x];
-        });
-        append(level, srgb, texels);
-    }
-    return texels;
+    return picture.rgba16.empty() ? levels_of(picture.size, picture.rgba, srgb)
+                                  : levels_of(picture.size, picture.rgba16, srgb);
 }
 
 glm::dvec3 mean_color(const Picture& picture, bool srgb) {
-    const std::array<float, 256>& linear = encoding(srgb).linear;
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-        sum += glm::dvec3(linear[picture.rgba[i]], linear[picture.rgba[i + 1]], linear[picture.rgba[i + 2]]);
-    return sum / std::max(1.0, static_cast<double>(picture.rgba.size() / 4));
+    return picture.rgba16.empty() ? mean_of(picture.rgba, srgb) : mean_of(picture.rgba16, srgb);
 }
 
 } // namespace boxwood

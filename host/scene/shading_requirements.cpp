@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/picture.hpp"
 #include "scene/element.hpp"
 #include "scene/materials_in_use.hpp"
 
@@ -18,7 +19,7 @@ auto is(const std::string& word) {
 /// Requirements and, beside each, the element that asked first.
 class Needs {
 public:
-    void add(const Material& material, const std::string& element) {
+    void add(const Scene& scene, const Material& material, const std::string& element) {
         const auto uses = texture_uses(material);
         static constexpr std::array inputs{"base colour", "metallic-roughness", "normal", "occlusion", "emission"};
         for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -27,6 +28,8 @@ public:
             set("textures", reader);
             set("texture-coordinates", reader);
             if (uses[i]->uv_set > 0) set("second-texture-coordinates", reader);
+            if (is_wide(scene.images[scene.textures[uses[i]->texture].image]))
+                set("wide-texels", reader + ", of 16 bits");
         }
         if (material.normal_texture.used()) {
             set("normals", element + " has a normal texture");
@@ -54,6 +57,7 @@ public:
         needs.uv_sets = has("second-texture-coordinates") ? 2 : has("texture-coordinates") ? 1 : 0;
         needs.colors = has("colors");
         needs.textures = has("textures");
+        needs.wide_texels = has("wide-texels");
         needs.alpha = has("alpha");
         needs.specular = has("specular");
         needs.emission = has("emission");
@@ -86,7 +90,7 @@ Needs needs_of(const Scene& scene) {
         const std::string name = plain ? "the plain material" : element("materials", i, material.name);
         if (!first.empty()) needs.set("materials", first + " and " + name + " are in use");
         first = first.empty() ? name : first;
-        needs.add(material, name);
+        needs.add(scene, material, name);
     }
     const std::vector<bool> meshes = meshes_in_use(scene);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -122,6 +126,7 @@ std::vector<std::string> words(const ShadingRequirements& needs) {
     add(needs.uv_sets > 1, "second-texture-coordinates");
     add(needs.colors, "colors");
     add(needs.textures, "textures");
+    add(needs.wide_texels, "wide-texels");
     add(needs.alpha, "alpha");
     add(needs.specular, "specular");
     add(needs.emission, "emission");

@@ -37,6 +37,7 @@ struct ShadingRequirements {
     std::uint32_t uv_sets = 0; ///< Sets of texture coordinates that materials in use read, 0 to 2.
     bool colors = false;       ///< Some mesh in use has vertex colours.
     bool textures = false;     ///< Some material in use has a texture.
+    bool wide_texels = false;  ///< Some of these textures has 16 bits per channel.
     bool alpha = false;        ///< Some material in use has AlphaMode::mask or blend.
     bool specular = false;     ///< Some material in use reflects: metallic > 0 or specular > 0.
     bool emission = false;     ///< Some material in use emits.
@@ -51,7 +52,7 @@ struct ShadingRequirements {
 ShadingRequirements shading_requirements(const Scene& scene);
 
 /// The words for reports: "transforms", "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",
-/// "textures", "alpha", "specular", "emission", "punctual-lights".
+/// "textures", "wide-texels", "alpha", "specular", "emission", "punctual-lights".
 std::vector<std::string> words(const ShadingRequirements& requirements);
 
 /// A word for reports, and why it is there: the first element that asks for it, or the option.

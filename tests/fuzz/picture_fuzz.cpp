@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (std::uint64_t{head.width} * head.height > 1u << 20) return 0; // for the fuzzer's memory
         const Picture picture = decode_picture(image);
         if (picture.size.width != head.width || picture.size.height != head.height) std::abort();
-        if (picture.rgba.size() != std::size_t{4} * head.width * head.height) std::abort();
+        if (picture.rgba.size() + picture.rgba16.size() != std::size_t{4} * head.width * head.height) std::abort();
     } catch (const InputError&) {
     }
     return 0;

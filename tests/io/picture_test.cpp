@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "boxwood/error.hpp"
+#include "io/png16.hpp"
 
 TEST_SUITE_BEGIN("io");
 
@@ -41,6 +42,34 @@ TEST_CASE("a picture comes back from PNG with one to four channels") {
             CHECK(picture.rgba[4 * i + 3] == (alpha ? from[channels - 1] : 255));
         }
     }
+}
+
+TEST_CASE("a PNG file of 16 bits keeps them, one of 8 stays as small as it is") {
+    for (std::uint32_t channels = 1; channels <= 4; ++channels) {
+        CAPTURE(channels);
+        std::vector<std::uint16_t> values(5 * 3 * channels);
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(1 + 1021 * i);
+        const EncodedImage image{"picture", test::encode_png16({5, 3}, channels, values)};
+        CHECK(is_wide(image));
+        const Picture picture = decode_picture(image);
+        CHECK(picture.size.width == 5);
+        CHECK(picture.rgba.empty());
+        REQUIRE(picture.rgba16.size() == 60);
+        for (std::size_t i = 0; i < 15; ++i) {
+            const std::uint16_t* from = &values[i * channels];
+            for (std::size_t c = 0; c < 3; ++c) CHECK(picture.rgba16[4 * i + c] == from[channels < 3 ? 0 : c]);
+            CHECK(picture.rgba16[4 * i + 3] == (channels % 2 == 0 ? from[channels - 1] : 65535));
+        }
+        EncodedImage cut = image;
+        cut.bytes.resize(cut.bytes.size() / 2);
+        CHECK_THROWS_AS(decode_picture(cut), InputError);
+        cut.bytes.resize(20);
+        CHECK(!is_wide(cut));
+    }
+    const EncodedImage narrow{"picture", encode_png("picture", {2, 2}, 1, std::vector<std::uint8_t>(4))};
+    CHECK(!is_wide(narrow));
+    CHECK(decode_picture(narrow).rgba16.empty());
+    CHECK(!is_wide(file_of({0xff, 0xd8, 0xff})));
 }
 
 TEST_CASE("what is no picture is refused") {

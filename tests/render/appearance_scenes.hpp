@@ -30,10 +30,11 @@ inline EncodedImage image(const std::string& name, PictureSize size, const std::
     return {name, encode_png(name, size, 4, rgba)};
 }
 
-inline std::vector<std::uint8_t> noise(PictureSize size, std::uint64_t salt) {
+template <class Code = std::uint8_t>
+std::vector<Code> noise(PictureSize size, std::uint64_t salt) {
     Random random(salt);
-    std::vector<std::uint8_t> rgba(4 * size.width * size.height);
-    for (std::uint8_t& byte : rgba) byte = static_cast<std::uint8_t>(random.below(256));
+    std::vector<Code> rgba(4 * size.width * size.height);
+    for (Code& code : rgba) code = static_cast<Code>(random.below(std::uint32_t{1} << (8 * sizeof(Code))));
     return rgba;
 }
 

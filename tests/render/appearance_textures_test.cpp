@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
+#include "io/png16.hpp"
 #include "render/appearance_scenes.hpp"
 #include "render/texture_levels.hpp"
 
@@ -17,17 +20,29 @@ double linear_to_srgb(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * st
 
 } // namespace
 
-TEST_CASE("levels of detail are means by area, in linear light, of pictures of any size") {
+TEST_CASE_TEMPLATE("levels of detail are means by area, in linear light, of pictures of any size and depth", Code,
+                   std::uint8_t, std::uint16_t) {
+    constexpr std::size_t bits = 8 * sizeof(Code), in_a_word = 32 / bits;
+    constexpr double largest = std::numeric_limits<Code>::max();
     // Powers of two, odd, one across, and one texel.
     for (const PictureSize size : {PictureSize{8, 4}, {7, 5}, {1, 6}, {13, 1}, {1, 1}, {3, 3}}) {
-        const Picture picture{size, noise(size, size.width)};
+        const std::vector<Code> rgba = noise<Code>(size, size.width);
+        Picture picture{size, {}};
+        if constexpr (sizeof(Code) == 1)
+            picture.rgba = rgba;
+        else
+            picture.rgba16 = rgba;
         for (const bool srgb : {false, true}) {
             CAPTURE(size.width);
             CAPTURE(srgb);
             const std::vector<std::uint32_t> levels = texture_levels(picture, srgb);
-            REQUIRE(levels.size() == level_texels(size));
+            REQUIRE(levels.size() * in_a_word == 4 * level_texels(size));
+            const auto code = [&](std::size_t texel, std::size_t c) {
+                const std::size_t place = 4 * texel + c;
+                return levels[place / in_a_word] >> bits * (place % in_a_word) & std::numeric_limits<Code>::max();
+            };
             for (std::size_t i = 0; i < std::size_t{size.width} * size.height; ++i)
-                for (std::size_t c = 0; c < 4; ++c) CHECK((levels[i] >> 8 * c & 255) == picture.rgba[4 * i + c]);
+                for (std::size_t c = 0; c < 4; ++c) CHECK(code(i, c) == rgba[4 * i + c]);
             const std::uint32_t width = std::max(1u, size.width / 2), height = std::max(1u, size.height / 2);
             if (level_count(size) == 1) continue;
             // Each texel of level 0 as width x height equal pieces: a texel of level 1 is a block of them.
@@ -39,16 +54,51 @@ TEST_CASE("levels of detail are means by area, in linear light, of pictures of a
                             for (std::uint32_t u = 0; u < size.width; ++u) {
                                 const std::uint32_t px = (x * size.width + u) / width,
                                                     py = (y * size.height + v) / height;
-                                const double code = picture.rgba[4 * (py * size.width + px) + c] / 255.0;
-                                sum += srgb && c < 3 ? srgb_to_linear(code) : code;
+                                const double value = rgba[4 * (py * size.width + px) + c] / largest;
+                                sum += srgb && c < 3 ? srgb_to_linear(value) : value;
                             }
                         sum /= size.width * size.height;
-                        const double expected = 255 * (srgb && c < 3 ? linear_to_srgb(sum) : sum);
+                        const double expected = largest * (srgb && c < 3 ? linear_to_srgb(sum) : sum);
                         const std::size_t at = std::size_t{size.width} * size.height + y * width + x;
-                        CHECK(std::abs((levels[at] >> 8 * c & 255) - expected) < 0.51);
+                        CHECK(std::abs(code(at, c) - expected) < 0.51);
                     }
         }
+        const glm::dvec3 mean = mean_color(picture, true);
+        double sum = 0;
+        for (std::size_t i = 0; i < rgba.size(); i += 4) sum += srgb_to_linear(rgba[i] / largest);
+        CHECK(mean.x == doctest::Approx(sum / static_cast<double>(rgba.size() / 4)));
     }
+}
+
+TEST_CASE("a picture of 16 bits takes two words a texel, beside others that take one") {
+    Material material;
+    material.base_color_texture.texture = 0;
+    material.normal_texture.texture = 1;
+    Scene scene = one_square(material);
+    const std::vector<std::uint16_t> values{1, 2, 3, 4, 60000, 60001, 60002, 60003};
+    scene.images = {{"wide", encode_png16({2, 1}, 4, values)}, image("narrow", {1, 1}, {1, 2, 3, 4})};
+    scene.textures = {{0}, {1}};
+    CHECK(shading_requirements(scene).wide_texels);
+    const Appearance appearance = appearance_of(scene);
+    const auto records = download(test_device(), appearance.textures);
+    REQUIRE(records.size() == 2);
+    CHECK(records[0].format == (BOXWOOD_SRGB | BOXWOOD_WIDE));
+    CHECK(records[1].format == 0);
+    CHECK(records[1].first_texel == 6);
+    const auto words = download(test_device(), appearance.texels);
+    REQUIRE(words.size() == 7);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(words[i] == (values[2 * i] | std::uint32_t{values[2 * i + 1]} << 16));
+    CHECK(words[6] == 0x04030201u);
+
+    scene.images[0].bytes.resize(60); // broken: a grey texel of one word
+    CHECK(shading_requirements(scene).wide_texels);
+    std::vector<std::string> warnings;
+    const Appearance broken = appearance_of(scene, warnings);
+    CHECK(warnings.size() == 1);
+    CHECK(download(test_device(), broken.textures)[0].format == BOXWOOD_SRGB);
+    CHECK(download(test_device(), broken.texels)[0] == 0xff808080u);
+    scene.textures[0].image = 1;
+    CHECK(!shading_requirements(scene).wide_texels); // no texture in use shows it
 }
 
 TEST_CASE("a picture is stored once per encoding, a record once per texture and encoding") {
@@ -69,8 +119,8 @@ TEST_CASE("a picture is stored once per encoding, a record once per texture and 
     const auto material_records = download(test_device(), appearance.materials);
     const TextureInput* inputs = material_records[0].textures;
     const auto record = [&](int place) { return records[inputs[place].texture]; };
-    CHECK(record(BOXWOOD_BASE_COLOR).srgb == 1);
-    CHECK(record(BOXWOOD_OCCLUSION).srgb == 0);
+    CHECK(record(BOXWOOD_BASE_COLOR).format == BOXWOOD_SRGB);
+    CHECK(record(BOXWOOD_OCCLUSION).format == 0);
     CHECK(record(BOXWOOD_OCCLUSION).first_texel == record(BOXWOOD_NORMAL).first_texel);
     CHECK(record(BOXWOOD_BASE_COLOR).first_texel != record(BOXWOOD_NORMAL).first_texel);
     CHECK(inputs[BOXWOOD_METALLIC_ROUGHNESS].texture == inputs[BOXWOOD_NORMAL].texture);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // render/texture.h on arrays. Macros: FILTER.
-// compile: FILTER=0
-// compile: FILTER=1
-// compile: FILTER=2
+// compile: FILTER=0 WIDE_TEXELS=1
+// compile: FILTER=1 WIDE_TEXELS=0
+// compile: FILTER=2 WIDE_TEXELS=1
 #include "render/texture.h"
 
 /// A texture coordinate and a footprint for each query: 6 floats.

@@ -38,42 +38,46 @@ struct Picture {
 
     std::uint32_t across(std::uint32_t level) const { return std::max(record.width >> level, 1u); }
     std::uint32_t down(std::uint32_t level) const { return std::max(record.height >> level, 1u); }
-    std::size_t first_texel(std::uint32_t level) const {
+    bool wide() const { return (record.format & BOXWOOD_WIDE) != 0; }
+    std::size_t first_word(std::uint32_t level) const {
         std::size_t first = record.first_texel;
-        for (std::uint32_t l = 0; l < level; ++l) first += std::size_t{across(l)} * down(l);
+        for (std::uint32_t l = 0; l < level; ++l) first += std::size_t{across(l)} * down(l) * (wide() ? 2 : 1);
         return first;
     }
 };
 
-Picture random_picture(Random& random, std::uint32_t width, std::uint32_t height) {
+Picture random_picture(Random& random, std::uint32_t width, std::uint32_t height, std::uint32_t format = 0) {
     Picture picture;
+    picture.record.format = format;
     picture.record.first_texel = 3; // not the first in the array
     picture.record.width = width;
     picture.record.height = height;
     while ((std::max(width, height) >> picture.record.levels) != 0) ++picture.record.levels;
-    picture.texels.resize(picture.first_texel(picture.record.levels));
+    picture.texels.resize(picture.first_word(picture.record.levels));
     for (std::uint32_t& texel : picture.texels) texel = static_cast<std::uint32_t>(random.bits());
     return picture;
 }
 
 std::vector<glm::vec4> sample(const Picture& picture, const std::vector<Query>& queries, Filter filter) {
     Device& device = test_device();
+    // Programs of scenes with wide pictures read others as well: here mirrored ones.
+    const bool wide = picture.wide() || picture.record.wrap_u == 1;
     std::vector<float> numbers;
     for (const Query& q : queries) numbers.insert(numbers.end(), {q.u, q.v, q.x_u, q.x_v, q.y_u, q.y_v});
     const Buffer<TextureRecord> record = upload(device, std::vector<TextureRecord>{picture.record}, "texture");
     const Buffer<std::uint32_t> texels = upload(device, picture.texels, "texels");
     const Buffer<float> in = upload(device, numbers, "queries");
     Guarded<glm::vec4> out(device, queries.size());
-    launch(device, {"render/texture_test.cl", "sample_test", {{"FILTER", std::to_string(filter)}}}, "test",
-           queries.size(), record, texels, in, static_cast<std::uint32_t>(queries.size()), out.view());
+    launch(device,
+           {"render/texture_test.cl",
+            "sample_test",
+            {{"FILTER", std::to_string(filter)}, {"WIDE_TEXELS", wide ? "1" : "0"}}},
+           "test", queries.size(), record, texels, in, static_cast<std::uint32_t>(queries.size()), out.view());
     CHECK(out.intact());
     return out.values();
 }
 
-double linear(double byte) {
-    const double c = byte / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
+double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
 /// Index i of a picture n wide that repeats, is mirrored, or ends.
 std::int64_t place(std::int64_t i, std::int64_t n, std::uint32_t wrap) {
@@ -86,11 +90,13 @@ std::int64_t place(std::int64_t i, std::int64_t n, std::uint32_t wrap) {
 glm::dvec4 texel(const Picture& picture, std::uint32_t level, std::int64_t x, std::int64_t y) {
     const std::int64_t column = place(x, picture.across(level), picture.record.wrap_u);
     const std::int64_t row = place(y, picture.down(level), picture.record.wrap_v);
-    const std::uint32_t bits = picture.texels[picture.first_texel(level) + row * picture.across(level) + column];
+    const std::int64_t number = row * picture.across(level) + column;
+    const std::uint32_t* words = &picture.texels[picture.first_word(level) + number * (picture.wide() ? 2 : 1)];
     glm::dvec4 color;
     for (int c = 0; c < 4; ++c) {
-        const double byte = (bits >> (8 * c)) & 255u;
-        color[c] = c < 3 && picture.record.srgb ? linear(byte) : byte / 255.0;
+        const double value = picture.wide() ? ((words[c / 2] >> (16 * (c % 2))) & 65535u) / 65535.0
+                                            : ((*words >> (8 * c)) & 255u) / 255.0;
+        color[c] = c < 3 && (picture.record.format & BOXWOOD_SRGB) ? linear(value) : value;
     }
     return color;
 }
@@ -182,11 +188,11 @@ template <class Check>
 void for_pictures(const Check& check) {
     Random random(301);
     for (const auto& size : sizes)
-        for (std::uint32_t mode = 0; mode < 3; ++mode) {
-            Picture picture = random_picture(random, size[0], size[1]);
-            picture.record.wrap_u = mode;
+        for (std::uint32_t mode = 0; mode < 6; ++mode) {
+            const std::uint32_t format = (mode & 1 ? BOXWOOD_SRGB : 0u) | (mode < 3 ? 0u : BOXWOOD_WIDE);
+            Picture picture = random_picture(random, size[0], size[1], format);
+            picture.record.wrap_u = mode % 3;
             picture.record.wrap_v = (mode + 1) % 3;
-            picture.record.srgb = mode & 1;
             picture.record.nearest = size[0] == 5;
             CAPTURE(size[0]);
             CAPTURE(size[1]);
@@ -205,7 +211,7 @@ bool magnified_block(const Picture& picture, const Query& q) {
 
 TEST_CASE("texture: bytes of sRGB are decoded to a unit in the last place") {
     Picture picture;
-    picture.record = {0, 256, 1, 1, 0, 0, 0, 1};
+    picture.record = {0, 256, 1, 1, 0, 0, 0, BOXWOOD_SRGB};
     std::vector<Query> queries;
     for (std::uint32_t i = 0; i < 256; ++i) {
         picture.texels.push_back(i * 0x01010101u);
@@ -213,8 +219,28 @@ TEST_CASE("texture: bytes of sRGB are decoded to a unit in the last place") {
     }
     const std::vector<glm::vec4> colors = sample(picture, queries, nearest);
     for (std::uint32_t i = 0; i < 256; ++i) {
-        for (int c = 0; c < 3; ++c) CHECK(std::fabs(colors[i][c] - linear(i)) <= 1e-7 * linear(i));
+        for (int c = 0; c < 3; ++c) CHECK(std::fabs(colors[i][c] - linear(i / 255.0)) <= 1e-7 * linear(i / 255.0));
         CHECK(std::fabs(colors[i].w - i / 255.0) <= 3e-7 * i / 255.0);
+    }
+}
+
+TEST_CASE("texture: each of the 65536 values of 16 bits is decoded, and brighter than the one before") {
+    Picture picture;
+    picture.record = {0, 256, 256, 1, 0, 0, 0, BOXWOOD_SRGB | BOXWOOD_WIDE};
+    std::vector<Query> queries;
+    for (std::uint32_t i = 0; i < 65536; ++i) {
+        picture.texels.insert(picture.texels.end(), {i * 0x00010001u, i * 0x00010001u});
+        queries.push_back(
+            {(static_cast<float>(i % 256) + 0.5f) / 256.0f, (static_cast<float>(i / 256) + 0.5f) / 256.0f, 0, 0, 0, 0});
+    }
+    const std::vector<glm::vec4> colors = sample(picture, queries, nearest);
+    for (std::uint32_t i = 0; i < 65536; ++i) {
+        const double wanted = linear(i / 65535.0);
+        REQUIRE(std::fabs(colors[i].x - wanted) <= 0x1p-22 * wanted);
+        REQUIRE(colors[i].y == colors[i].x);
+        REQUIRE(colors[i].z == colors[i].x);
+        REQUIRE(std::fabs(colors[i].w - i / 65535.0) <= 3e-7 * i / 65535.0);
+        if (i > 0) REQUIRE(colors[i].x > colors[i - 1].x);
     }
 }
 
@@ -317,7 +343,7 @@ TEST_CASE("texture: the anisotropic filter keeps what lies across the shorter ax
     // footprint of one texel across the columns and 16 along them sees a column, and the trilinear filter grey.
     Picture picture;
     picture.record = {0, 32, 32, 6, 0, 0, 0, 0};
-    picture.texels.resize(picture.first_texel(6), 0x80808080u);
+    picture.texels.resize(picture.first_word(6), 0x80808080u);
     for (std::uint32_t i = 0; i < 32 * 32; ++i) picture.texels[i] = i % 2 ? 0xffffffffu : 0u;
     const std::vector<Query> queries = {{4.5f / 32, 0.3f, 1.0f / 32, 0, 0, 0.5f},
                                         {5.5f / 32, 0.3f, 0, 0.5f, 1.0f / 32, 0}};

@@ -54,7 +54,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void layout_test(
         OFFSET(MaterialRecord, specular), OFFSET(MaterialRecord, flags), OFFSET(MaterialRecord, textures),
         sizeof(TextureRecord), OFFSET(TextureRecord, first_texel), OFFSET(TextureRecord, width),
         OFFSET(TextureRecord, height), OFFSET(TextureRecord, levels), OFFSET(TextureRecord, wrap_u),
-        OFFSET(TextureRecord, wrap_v), OFFSET(TextureRecord, nearest), OFFSET(TextureRecord, srgb),
+        OFFSET(TextureRecord, wrap_v), OFFSET(TextureRecord, nearest), OFFSET(TextureRecord, format),
         sizeof(LightRecord), OFFSET(LightRecord, position), OFFSET(LightRecord, kind), OFFSET(LightRecord, direction),
         OFFSET(LightRecord, range), OFFSET(LightRecord, intensity), OFFSET(LightRecord, inverse_size),
         OFFSET(LightRecord, edges), OFFSET(LightRecord, cone_scale), OFFSET(LightRecord, cone_edge),

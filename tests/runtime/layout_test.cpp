@@ -61,7 +61,7 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(MaterialRecord, textures), sizeof(TextureRecord), offsetof(TextureRecord, first_texel),
         offsetof(TextureRecord, width), offsetof(TextureRecord, height), offsetof(TextureRecord, levels),
         offsetof(TextureRecord, wrap_u), offsetof(TextureRecord, wrap_v), offsetof(TextureRecord, nearest),
-        offsetof(TextureRecord, srgb), sizeof(LightRecord), offsetof(LightRecord, position),
+        offsetof(TextureRecord, format), sizeof(LightRecord), offsetof(LightRecord, position),
         offsetof(LightRecord, kind), offsetof(LightRecord, direction), offsetof(LightRecord, range),
         offsetof(LightRecord, intensity), offsetof(LightRecord, inverse_size), offsetof(LightRecord, edges),
         offsetof(LightRecord, cone_scale), offsetof(LightRecord, cone_edge), offsetof(LightRecord, instance),
