@@ -156,8 +156,7 @@ std::vector<Vector> read_vectors(const GltfDocument& document, int index, int ty
     const std::string name = element("accessors", static_cast<std::size_t>(index));
     with_component(document, accessor.componentType, name, [&](auto zero) {
         using T = decltype(zero);
-        read_elements<T>(document, accessor, static_cast<std::size_t>(Vector::length()), name,
-                         glm::value_ptr(elements.front()),
+        read_elements<T>(document, accessor, sizeof(Vector) / sizeof(float), name, glm::value_ptr(elements.front()),
                          [&](T value) { return to_float(value, accessor.normalized); });
     });
     return elements;
@@ -175,6 +174,10 @@ std::vector<glm::vec3> read_vec3(const GltfDocument& document, int index, const 
 
 std::vector<glm::vec4> read_vec4(const GltfDocument& document, int index, const std::string& where) {
     return read_vectors<glm::vec4>(document, index, TINYGLTF_TYPE_VEC4, "VEC4", where);
+}
+
+std::vector<glm::mat4> read_mat4(const GltfDocument& document, int index, const std::string& where) {
+    return read_vectors<glm::mat4>(document, index, TINYGLTF_TYPE_MAT4, "MAT4", where);
 }
 
 std::vector<glm::vec4> read_colors(const GltfDocument& document, int index, const std::string& where) {

@@ -24,6 +24,8 @@ std::vector<glm::vec2> read_vec2(const GltfDocument& document, int index, const 
 std::vector<glm::vec3> read_vec3(const GltfDocument& document, int index, const std::string& where);
 std::vector<glm::vec4> read_vec4(const GltfDocument& document, int index, const std::string& where);
 
+std::vector<glm::mat4> read_mat4(const GltfDocument& document, int index, const std::string& where);
+
 /// Colours of three or four components; of three the last is 1. Throws like read_vec3.
 std::vector<glm::vec4> read_colors(const GltfDocument& document, int index, const std::string& where);
 

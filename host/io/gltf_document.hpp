@@ -66,7 +66,7 @@ bool is_data_uri(std::string_view uri);
 std::vector<std::byte> load_uri(const GltfDocument& document, const std::string& uri, const std::string& where,
                                 Warnings& warnings);
 
-/// Parses glTF JSON, without what Boxwood never reads (animations, skins, extras, foreign extensions).
+/// Parses glTF JSON, without what Boxwood never reads (animations, extras, foreign extensions).
 /// Throws InputError when it is no JSON object.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 

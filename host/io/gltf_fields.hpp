@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -91,6 +92,13 @@ public:
         for (const nlohmann::json& value : *list) check_index(value, key);
     }
 
+    /// Indices that others count by their places, so that none may be left out.
+    void numbered_indices(const char* key) const {
+        const nlohmann::json* list = find(key, true);
+        if (!list->is_array()) fail(key, "is not an array");
+        for (const nlohmann::json& value : *list) check_index(value, key);
+    }
+
     /// An object whose members are all indices.
     void index_map(const char* key, bool required = false) const {
         nlohmann::json* map = find(key, required);
@@ -124,11 +132,11 @@ public:
         if (value != nullptr && !value->is_number()) fail(key, "is not a number");
     }
 
-    void numbers(const char* key, std::size_t count) const {
+    void numbers(const char* key, std::optional<std::size_t> count = std::nullopt) const {
         const nlohmann::json* list = find(key);
         if (list == nullptr) return;
         const bool right =
-            list->is_array() && list->size() == count &&
+            list->is_array() && (!count || list->size() == *count) &&
             std::all_of(list->begin(), list->end(), [](const nlohmann::json& value) { return value.is_number(); });
         if (!right) fail(key, "does not have the right number of numbers");
     }

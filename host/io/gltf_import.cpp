@@ -3,27 +3,26 @@
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/rounding.hpp"
-#include "io/gltf_accessor.hpp"
 #include "io/gltf_camera.hpp"
+#include "io/gltf_forms.hpp"
 #include "io/gltf_lights.hpp"
 #include "io/gltf_materials.hpp"
 #include "io/gltf_mesh.hpp"
 #include "io/gltf_nodes.hpp"
+#include "io/gltf_pose.hpp"
 #include "io/gltf_size.hpp"
-#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
 
 namespace {
-
-constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
 /// False when certainly every triangle is a point or a line, such as after a file's numbers were rounded.
 bool has_area(const Mesh& mesh) {
@@ -43,9 +42,8 @@ public:
         const std::vector<bool> used = used_meshes(nodes);
         check_size(document_, nodes, used, host_memory());
         load_materials(document_, scene_, warnings_);
-        load_used_meshes(used);
+        add_instances(shown_meshes(document_, nodes, warnings_));
         for (const PlacedNode& placed : nodes) {
-            add_instances(placed);
             if (auto camera = load_camera(document_, placed, warnings_)) scene_.cameras.push_back(std::move(*camera));
             if (auto light = load_light(document_, placed, warnings_)) scene_.lights.push_back(std::move(*light));
         }
@@ -74,90 +72,71 @@ private:
         return used;
     }
 
-    // Meshes that some node shows, in file order. One without triangles gets no place in the scene.
-    void load_used_meshes(const std::vector<bool>& used) {
-        places_.resize(used.size());
-        for (std::size_t i = 0; i < used.size(); ++i) {
-            if (!used[i]) continue;
-            Mesh mesh = load_mesh(document_, i, scene_.counts, warnings_);
-            if (mesh.triangles.empty()) continue;
-            places_[i] = static_cast<std::uint32_t>(scene_.meshes.size());
-            if (!has_area(mesh))
-                warnings_.add(element("meshes", i), "no triangle has an area, so that no ray meets it");
-            bounds_.push_back(mesh_bounds(mesh.positions));
-            scene_.meshes.push_back(std::move(mesh));
+    /// A mesh of the scene that a form became.
+    struct Place {
+        std::uint32_t mesh;
+        MeshBounds bounds;
+    };
+
+    void add_instances(const std::vector<ShownMesh>& shown) {
+        const MeshForms forms = mesh_forms(document_, shown);
+        std::vector<std::optional<Place>> places;
+        places.reserve(forms.forms.size());
+        for (const MeshForm& form : forms.forms) places.push_back(add_mesh(form, shown));
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const MeshForm& form = forms.forms[forms.of_shown[i]];
+            add_instance(shown[i].node, places[forms.of_shown[i]],
+                         form.placed_by ? glm::mat4(1.0f) : glm::mat4(shown[i].to_world));
         }
     }
 
-    void add_instances(const PlacedNode& placed) {
-        const tinygltf::Node& node = model_.nodes[placed.node];
-        if (node.mesh < 0) return;
-        // glTF places a skinned mesh by its joints alone, whatever the transform of its node. In the pose in which the
-        // skin was bound that comes to one transform for the whole mesh, and exporters keep the node at that place; so
-        // the node's own transform stands in for the rest pose.
-        if (node.skin >= 0) warnings_.add(element("nodes", placed.node), "is skinned, loaded in rest pose");
-        if (const auto found = node.extensions.find(instancing); found != node.extensions.end()) {
-            return add_gpu_instances(placed, found->second);
-        }
-        add_instance(placed, placed.to_world);
+    /// None of a form without triangles, which gets no place in the scene.
+    std::optional<Place> add_mesh(const MeshForm& form, const std::vector<ShownMesh>& shown) {
+        const std::uint64_t skipped = scene_.counts.skipped_points_and_lines;
+        Mesh mesh = load_mesh(document_, form.mesh, pose_of(form, shown), scene_.counts, warnings_);
+        // Counted once for each mesh of the file.
+        if (!loaded_.insert(form.mesh).second) scene_.counts.skipped_points_and_lines = skipped;
+        if (mesh.triangles.empty()) return std::nullopt;
+        if (!has_area(mesh))
+            warnings_.add(element("meshes", form.mesh), "no triangle has an area, so that no ray meets it");
+        const Place place{static_cast<std::uint32_t>(scene_.meshes.size()), mesh_bounds(mesh.positions)};
+        scene_.meshes.push_back(std::move(mesh));
+        return place;
     }
 
-    void add_instance(const PlacedNode& placed, const glm::dmat4& to_world) {
-        const tinygltf::Node& node = model_.nodes[placed.node];
-        const auto mesh = places_[static_cast<std::size_t>(node.mesh)];
-        if (!mesh) {
+    Pose pose_of(const MeshForm& form, const std::vector<ShownMesh>& shown) {
+        Pose pose;
+        const std::vector<double>& weights = morph_weights(document_, form.node);
+        if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0.0; }))
+            pose.weights = weights;
+        if (!form.placed_by) return pose;
+        pose.placement = shown[*form.placed_by].to_world;
+        const int skin = model_.nodes[form.node].skin;
+        if (skin < 0) return pose;
+        if (globals_.empty()) globals_ = global_transforms(document_);
+        pose.joints = joint_matrices(document_, skin, element("nodes", form.node), globals_);
+        return pose;
+    }
+
+    void add_instance(std::size_t node, const std::optional<Place>& place, const glm::mat4& transform) {
+        if (!place) {
             ++scene_.counts.dropped_instances;
             return;
         }
-        const glm::mat4 transform(to_world);
-        const std::string_view fault = placement_fault(transform, bounds_[*mesh]);
+        const std::string_view fault = placement_fault(transform, place->bounds);
         if (!fault.empty()) {
             ++scene_.counts.dropped_instances;
-            return warnings_.add(element("nodes", placed.node),
-                                 "instance dropped: its transform " + std::string(fault));
+            return warnings_.add(element("nodes", node), "instance dropped: its transform " + std::string(fault));
         }
-        scene_.instances.push_back({node.name, *mesh, transform});
-    }
-
-    // EXT_mesh_gpu_instancing: one T R S per instance below the node's own transform. Every attribute has one element
-    // per instance; attributes of the application's own count but are not read.
-    void add_gpu_instances(const PlacedNode& placed, const tinygltf::Value& extension) {
-        const std::string where = element("nodes", placed.node) + ".extensions." + instancing + ".attributes";
-        std::optional<std::size_t> count;
-        const tinygltf::Value& attributes = extension.Get("attributes");
-        for (const std::string& name : attributes.Keys()) {
-            const std::size_t elements =
-                element_count(document_, attributes.Get(name).GetNumberAsInt(), where + "." + excerpt(name));
-            if (count && *count != elements)
-                document_.fail(where + "." + excerpt(name), "differs in count from the other attributes");
-            count = elements;
-        }
-        if (!count) document_.fail(where, "has no attribute");
-
-        const auto accessor = [&](const char* name) {
-            return attributes.Has(name) ? attributes.Get(name).GetNumberAsInt() : -1;
-        };
-        const int t = accessor("TRANSLATION");
-        const int r = accessor("ROTATION");
-        const int s = accessor("SCALE");
-        const auto translations = t < 0 ? std::vector<glm::vec3>() : read_vec3(document_, t, where + ".TRANSLATION");
-        const auto rotations = r < 0 ? std::vector<glm::vec4>() : read_vec4(document_, r, where + ".ROTATION");
-        const auto scales = s < 0 ? std::vector<glm::vec3>() : read_vec3(document_, s, where + ".SCALE");
-        if (t < 0 && r < 0 && s < 0 && *count > largest_implicit_count) document_.fail(where, "has too many elements");
-        for (std::size_t i = 0; i < *count; ++i) {
-            const glm::dmat4 local = compose(t < 0 ? glm::dvec3(0.0) : glm::dvec3(translations[i]),
-                                             r < 0 ? glm::dvec4(0, 0, 0, 1) : glm::dvec4(rotations[i]),
-                                             s < 0 ? glm::dvec3(1.0) : glm::dvec3(scales[i]));
-            add_instance(placed, placed.to_world * local);
-        }
+        scene_.instances.push_back({model_.nodes[node].name, place->mesh, transform});
     }
 
     const GltfDocument& document_;
     const tinygltf::Model& model_;
     Scene scene_;
     Warnings& warnings_;
-    std::vector<std::optional<std::uint32_t>> places_; ///< By mesh of the file: its index in the scene.
-    std::vector<MeshBounds> bounds_;                   ///< By mesh of the scene.
+    std::set<std::size_t> loaded_;    ///< Meshes of the file.
+    std::vector<glm::dmat4> globals_; ///< Of all nodes; empty until a skin needs them.
 };
 
 } // namespace

@@ -90,6 +90,7 @@ void check_node(const F& node) {
     node.reference("mesh");
     node.reference("camera");
     node.reference("skin");
+    node.numbers("weights");
     node.indices("children");
     node.numbers("matrix", 16);
     node.numbers("translation", 3);
@@ -149,11 +150,17 @@ void check_gltf_fields(json& root, const std::string& file, Warnings& warnings) 
     });
     for_each(root, "meshes", report, top, [&](json& mesh, const auto& f) {
         f.string("name");
+        f.numbers("weights");
         for_each(
             mesh, "primitives", report, [&f] { return f.path() + "."; },
             [&root](json& value, const auto& primitive) { check_primitive(root, value, primitive); });
     });
     for_each(root, "nodes", report, top, [](const json&, const auto& f) { check_node(f); });
+    for_each(root, "skins", report, top, [](const json&, const auto& f) {
+        f.string("name");
+        f.numbered_indices("joints");
+        f.reference("inverseBindMatrices");
+    });
     for_each(root, "cameras", report, top, [](const json&, const auto& f) { check_camera(f); });
     for_each(root, "scenes", report, top, [](const json&, const auto& f) {
         f.string("name");

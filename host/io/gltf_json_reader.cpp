@@ -17,9 +17,10 @@ namespace {
 // Deeper than any glTF property that is kept.
 constexpr std::size_t deepest_nesting = 64;
 
-constexpr std::array<std::string_view, 16> sections{
-    "asset",  "accessors", "bufferViews", "buffers",  "cameras", "meshes",     "nodes",          "scene",
-    "scenes", "materials", "textures",    "samplers", "images",  "extensions", "extensionsUsed", "extensionsRequired"};
+constexpr std::array<std::string_view, 17> sections{
+    "asset",  "accessors", "bufferViews", "buffers",        "cameras",           "meshes",
+    "nodes",  "scene",     "scenes",      "materials",      "textures",          "samplers",
+    "images", "skins",     "extensions",  "extensionsUsed", "extensionsRequired"};
 
 constexpr std::array<std::string_view, 8> extensions{"EXT_mesh_gpu_instancing",
                                                      "KHR_draco_mesh_compression",

@@ -10,6 +10,7 @@
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_attributes.hpp"
 #include "io/gltf_extensions.hpp"
+#include "io/gltf_pose.hpp"
 
 namespace boxwood {
 
@@ -20,6 +21,8 @@ struct VertexRange {
     std::size_t first;
     std::size_t count;
 };
+
+using PosedKey = std::pair<VertexKey, std::vector<int>>;
 
 /// The marked elements, in their order. An empty list stays empty.
 template <class T>
@@ -32,9 +35,10 @@ void keep_marked(const std::vector<bool>& kept, std::vector<T>& elements) {
 
 class MeshLoader {
 public:
-    MeshLoader(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings)
-        : document_(document), source_(document.model.meshes[index]), where_(element("meshes", index)), counts_(counts),
-          warnings_(warnings) {
+    MeshLoader(const GltfDocument& document, std::size_t index, const Pose& pose, ImportCounts& counts,
+               Warnings& warnings)
+        : document_(document), source_(document.model.meshes[index]), where_(element("meshes", index)), pose_(pose),
+          counts_(counts), warnings_(warnings) {
         mesh_.name = source_.name;
     }
 
@@ -62,11 +66,11 @@ private:
         if (positions == primitive.attributes.end()) return warnings_.add(where, "has no positions, skipped");
         if (primitive.extensions.contains(draco) && !has_all_data(primitive, where))
             return warnings_.add(where, "has no data but what KHR_draco_mesh_compression holds, left out");
-        if (!primitive.targets.empty()) warnings_.add(where, "morph targets are left out, base positions are used");
 
-        const VertexRange range = add_vertices(primitive, where + ".attributes");
+        const VertexRange range = add_vertices(primitive, where);
         first_new_triangle_ = mesh_.triangles.size();
         add_triangles(primitive.mode, vertex_order(primitive, range, where + ".indices"), where);
+        turn_mirrored();
         if (mesh_.triangles.size() == first_new_triangle_) warnings_.add(where, "makes no triangle");
         add_materials(primitive, where + ".material");
     }
@@ -77,19 +81,24 @@ private:
                (primitive.indices < 0 || has_data(document_, primitive.indices, where + ".indices"));
     }
 
-    VertexRange add_vertices(const tinygltf::Primitive& primitive, const std::string& attributes) {
+    VertexRange add_vertices(const tinygltf::Primitive& primitive, const std::string& name) {
         const VertexKey key = vertex_key(primitive);
-        if (const auto known = ranges_.find(key); known != ranges_.end()) return known->second;
-        const std::string where = attributes + ".POSITION";
+        const PosedKey posed_key{key, pose_accessors(document_, primitive, pose_, name)};
+        if (const auto known = ranges_.find(posed_key); known != ranges_.end()) return known->second;
+        const std::string attributes = name + ".attributes", where = attributes + ".POSITION";
         const std::vector<glm::vec3> positions = read_vec3(document_, key[0], where);
         const VertexRange range{mesh_.positions.size(), positions.size()};
         if (range.first + range.count > std::numeric_limits<std::uint32_t>::max()) {
             document_.fail(where, "makes more than 2^32 vertices in one mesh");
         }
         mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
-        ranges_.emplace(key, range);
-        note_unusable(range, where);
+        ranges_.emplace(posed_key, range);
         add_attributes(document_, key, range.first, attributes, mesh_, warnings_);
+        if (!pose_.empty()) {
+            const auto mirrored = pose_vertices(document_, primitive, pose_, name, range.first, mesh_, warnings_);
+            mirrored_.insert(mirrored_.end(), mirrored.begin(), mirrored.end());
+        }
+        note_unusable(range, where);
         return range;
     }
 
@@ -151,6 +160,15 @@ private:
         }
     }
 
+    /// Triangles whose corners are all mirrored turn round, so that their fronts stay where they are on the surface.
+    void turn_mirrored() {
+        if (mirrored_.empty()) return;
+        for (std::size_t i = first_new_triangle_; i < mesh_.triangles.size(); ++i) {
+            glm::uvec3& t = mesh_.triangles[i];
+            if (mirrored_[t.x] && mirrored_[t.y] && mirrored_[t.z]) std::swap(t.y, t.z);
+        }
+    }
+
     static bool usable(const glm::vec3& position) {
         const glm::vec3 size = glm::abs(position); // a NaN fails every comparison
         return size.x <= largest_coordinate && size.y <= largest_coordinate && size.z <= largest_coordinate;
@@ -182,7 +200,8 @@ private:
         keep_marked(kept, mesh_.triangles);
         keep_marked(kept, mesh_.materials);
         const std::size_t dropped = before - mesh_.triangles.size();
-        if (before > 0 && mesh_.triangles.empty()) {
+        // What a node does to its mesh costs the node its mesh, what is wrong with the mesh itself refuses the file.
+        if (before > 0 && mesh_.triangles.empty() && !pose_.places()) {
             document_.fail(first_unusable_,
                            "is not finite or out of range, like a vertex of every triangle of the mesh");
         }
@@ -194,18 +213,21 @@ private:
     const GltfDocument& document_;
     const tinygltf::Mesh& source_;
     std::string where_;
+    const Pose& pose_;
     ImportCounts& counts_;
     Warnings& warnings_;
     Mesh mesh_;
-    std::map<VertexKey, VertexRange> ranges_;
+    std::map<PosedKey, VertexRange> ranges_;
+    std::vector<bool> mirrored_;         ///< By vertex; empty without a pose.
     std::size_t first_new_triangle_ = 0; ///< Of the primitive being added.
     std::string first_unusable_;
 };
 
 } // namespace
 
-Mesh load_mesh(const GltfDocument& document, std::size_t index, ImportCounts& counts, Warnings& warnings) {
-    return MeshLoader(document, index, counts, warnings).load();
+Mesh load_mesh(const GltfDocument& document, std::size_t index, const Pose& pose, ImportCounts& counts,
+               Warnings& warnings) {
+    return MeshLoader(document, index, pose, counts, warnings).load();
 }
 
 } // namespace boxwood

@@ -148,4 +148,21 @@ std::vector<PlacedNode> place_nodes(const GltfDocument& document, Warnings& warn
     return placed;
 }
 
+std::vector<glm::dmat4> global_transforms(const GltfDocument& document) {
+    Warnings ignored; // place_nodes has them
+    std::vector<glm::dmat4> transforms(document.model.nodes.size());
+    std::vector<std::size_t> stack = find_roots(document);
+    for (const std::size_t root : stack) transforms[root] = local_transform(document, root, ignored);
+    while (!stack.empty()) {
+        const std::size_t parent = stack.back();
+        stack.pop_back();
+        for (const int index : document.model.nodes[parent].children) {
+            const auto child = static_cast<std::size_t>(index);
+            transforms[child] = transforms[parent] * local_transform(document, child, ignored);
+            stack.push_back(child);
+        }
+    }
+    return transforms;
+}
+
 } // namespace boxwood

@@ -23,6 +23,10 @@ struct PlacedNode {
 /// affine. O(nodes), without recursion.
 std::vector<PlacedNode> place_nodes(const GltfDocument& document, Warnings& warnings);
 
+/// The global transform of every node of the file, in or out of the loaded scene, in double: joints may stand anywhere. Throws as
+/// place_nodes. O(nodes).
+std::vector<glm::dmat4> global_transforms(const GltfDocument& document);
+
 /// T R S of glTF; `rotation` is a quaternion (x, y, z, w) of any length but zero, for which the result is not finite.
 glm::dmat4 compose(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale);
 

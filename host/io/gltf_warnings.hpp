@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace boxwood {
 
-/// The warnings of an import: the first hundred, then only how many more there were.
+/// The warnings of an import, each once: the first hundred, then only how many more there were.
 class Warnings {
 public:
     void add(const std::string& where, const std::string& what);
@@ -22,7 +23,7 @@ private:
     /// What add_repeated was given before.
     struct Repeated {
         std::size_t line;
-        std::size_t others = 0;
+        std::set<std::string> places;
     };
 
     std::vector<std::string> lines_;

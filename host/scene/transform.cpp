@@ -21,17 +21,37 @@ bool all_finite(const Matrix& matrix) {
     return true;
 }
 
+constexpr double rounding = static_cast<double>(FLT_EPSILON);
+
+/// Whether two of the columns point in different directions.
+bool has_area(const glm::dmat3& columns) {
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = columns[i], &b = columns[(i + 1) % 3];
+        if (glm::length(glm::cross(a, b)) > rounding * glm::length(a) * glm::length(b)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
 // Hadamard's bound on the determinant, by columns and by rows: a matrix whose rows or columns differ in scale only is
 // far from singular, however thin it is.
 bool is_singular(const glm::dmat3& linear) {
     const glm::dmat3 rows = glm::transpose(linear);
     const double by_columns = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     const double by_rows = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
-    const double rounding = static_cast<double>(FLT_EPSILON);
     return !(std::abs(glm::determinant(linear)) > rounding * std::min(by_columns, by_rows));
 }
 
-} // namespace
+bool spans_plane(const glm::dmat3& linear) { return has_area(linear) || has_area(glm::transpose(linear)); }
+
+std::string_view affine_fault(const glm::mat4& transform) {
+    if (!all_finite(transform)) return "is not finite";
+    if (transform[0][3] != 0.0f || transform[1][3] != 0.0f || transform[2][3] != 0.0f || transform[3][3] != 1.0f) {
+        return "is not affine";
+    }
+    return "";
+}
 
 MeshBounds mesh_bounds(const std::vector<glm::vec3>& positions) {
     MeshBounds bounds{positions.front(), positions.front()};
@@ -43,10 +63,8 @@ MeshBounds mesh_bounds(const std::vector<glm::vec3>& positions) {
 }
 
 std::string_view transform_fault(const glm::mat4& transform) {
-    if (!all_finite(transform)) return "is not finite";
-    if (transform[0][3] != 0.0f || transform[1][3] != 0.0f || transform[2][3] != 0.0f || transform[3][3] != 1.0f) {
-        return "is not affine";
-    }
+    const std::string_view fault = affine_fault(transform);
+    if (!fault.empty()) return fault;
     const glm::dmat4 exact(transform);
     if (is_singular(glm::dmat3(exact))) return "is singular";
     if (!all_finite(glm::affineInverse(exact))) return "has an inverse out of the range of float";

@@ -19,6 +19,15 @@ struct MeshBounds {
 /// The bounds of one position or more. O(positions).
 MeshBounds mesh_bounds(const std::vector<glm::vec3>& positions);
 
+/// Whether a linear map flattens space: its determinant is below the rounding error, in float, of its own terms.
+bool is_singular(const glm::dmat3& linear);
+
+/// Whether a linear map leaves at least a plane of space, judged likewise.
+bool spans_plane(const glm::dmat3& linear);
+
+/// Why a transform is not affine and finite, or "" when it is.
+std::string_view affine_fault(const glm::mat4& transform);
+
 /// Why a transform cannot place something, or "" when it can: it must be affine and finite, and have an inverse whose
 /// entries are finite floats too. The determinant counts as zero when it is below the rounding error of its own terms,
 /// so the answer does not change when the transform is scaled by a power of two.

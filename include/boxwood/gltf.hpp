@@ -9,7 +9,10 @@ namespace boxwood {
 
 /// Reads a glTF 2.0 scene (.gltf or .glb): the default scene, else scene 0, else every root node. One Mesh per glTF mesh that
 /// is used (its triangle primitives concatenated), with its attributes and materials, one Instance per node with a mesh and
-/// per EXT_mesh_gpu_instancing transform, in depth-first node order. Skins and morph targets load in rest pose with a warning.
+/// per EXT_mesh_gpu_instancing transform, in depth-first node order. Morph targets are added by the weights of the mesh or node, with a
+/// Mesh for each choice of weights. A skinned mesh is where its joints have it at rest, whatever the transform of its node; for each
+/// node that shows one, and for each whose transform flattens a mesh to a sheet, there is a Mesh in world space with an identity
+/// instance. Animations are not read.
 /// Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of looks cannot
 /// be used is replaced or left out with a warning (a picture that is missing, a number out of range). Each extension that the file
 /// uses and that is not read is a warning saying what stands in for it; so is what shows nothing (a mesh that no node shows or

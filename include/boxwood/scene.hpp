@@ -31,7 +31,8 @@ struct Mesh {
     std::vector<glm::vec4> colors{}; ///< Linear, alpha last; multiply the base colour.
 };
 
-/// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float.
+/// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float; a mesh that is to be flattened has
+/// to be flat itself (load_gltf makes such meshes).
 struct Instance {
     std::string name;
     std::uint32_t mesh = 0;    ///< Index into Scene::meshes.
@@ -49,8 +50,8 @@ struct Camera {
 
 /// What the importer left out or changed, for the report.
 struct ImportCounts {
-    std::uint64_t dropped_triangles = 0;        ///< With a vertex that is NaN, infinite or out of range.
-    std::uint64_t dropped_instances = 0;        ///< With a singular or non-finite transform, or of a mesh left empty.
+    std::uint64_t dropped_triangles = 0; ///< With a vertex that is NaN, infinite or out of range.
+    std::uint64_t dropped_instances = 0; ///< Whose transform is not finite or leaves no plane, or of a mesh left empty.
     std::uint64_t skipped_points_and_lines = 0; ///< Primitives of these modes.
 };
 

@@ -37,6 +37,40 @@ std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
     return word;
 }
 
+/// Gives the first primitive joints and a morph target, and the first node that shows it a skin: save_glb writes none.
+void add_pose(Sample& sample) {
+    json& root = sample.root;
+    const auto add = [&](const std::string& bytes, int component, std::size_t count, const char* type) {
+        root["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", sample.binary.size()}, {"byteLength", bytes.size()}});
+        sample.binary += bytes;
+        root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
+                                     {"componentType", component},
+                                     {"count", count},
+                                     {"type", type},
+                                     {"normalized", component == 5121}});
+        return root["accessors"].size() - 1;
+    };
+    json& primitive = root["meshes"][0]["primitives"][0];
+    json& attributes = primitive["attributes"];
+    const auto count = root["accessors"][attributes["POSITION"].get<std::size_t>()]["count"].get<std::size_t>();
+    attributes["JOINTS_0"] = add(std::string(8 * count, '\0'), 5123, count, "VEC4");
+    attributes["WEIGHTS_0"] = add(std::string(4 * count, '\x40'), 5121, count, "VEC4");
+    primitive["targets"] = {{{"POSITION", attributes["POSITION"]}}};
+    root["meshes"][0]["weights"] = {0.5};
+    std::array<float, 16> identity{};
+    for (std::size_t i = 0; i < 16; i += 5) identity[i] = 1.0f;
+    std::string matrix(sizeof identity, '\0');
+    std::memcpy(matrix.data(), identity.data(), sizeof identity);
+    root["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", add(matrix, 5126, 1, "MAT4")}}};
+    for (json& node : root["nodes"]) {
+        if (node.value("mesh", -1) != 0) continue;
+        node["skin"] = 0;
+        break;
+    }
+    root["buffers"][0]["byteLength"] = sample.binary.size();
+}
+
 const Sample& sample() {
     static const Sample made = [] {
         const test::TemporaryFolder folder;
@@ -49,6 +83,7 @@ const Sample& sample() {
         result.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = 0;
         result.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
             {"diffuseFactor", {1, 0.5, 0, 1}}, {"diffuseTexture", {{"index", 0}}}};
+        add_pose(result);
         const json flat = result.root.flatten();
         for (const auto& [place, value] : flat.items()) result.places.push_back(place);
         return result;

@@ -118,7 +118,7 @@ TEST_CASE("instances that cannot be placed are dropped, counted and named") {
         CHECK(scene.counts.dropped_instances == 1);
         CHECK(scene.warnings.at(0).starts_with("nodes[1]"));
     };
-    check({{"scale", {1, 0, 1}}});
+    check({{"scale", {0, 0, 1}}});
     check({{"scale", {1e30, 1e30, 1e30}}});
     check({{"scale", {1e39, 1e39, 1e39}}});
     check({{"translation", {1e300, 0, 0}}});
@@ -212,14 +212,6 @@ TEST_CASE("cameras stand where their nodes do") {
     CHECK(fixture.fault() == "cameras[1].orthographic");
     fixture.root["cameras"][1]["type"] = "fisheye";
     CHECK(fixture.fault() == "cameras[1].type");
-}
-
-TEST_CASE("a skinned mesh loads in rest pose with a warning") {
-    GltfFixture fixture = test::triangle_fixture();
-    fixture.root["nodes"][0]["skin"] = 0;
-    const Scene scene = fixture.load();
-    CHECK(scene.instances.size() == 1);
-    CHECK(scene.warnings.at(0).starts_with("nodes[0]"));
 }
 
 TEST_SUITE_END();
