@@ -93,7 +93,7 @@ struct Resolution {
 };
 void add_resolution(CLI::App& command, Resolution& resolution);
 
-/// Throws InputError naming `file` unless it can be written, and UsageError unless it ends in `extension` (any when
+/// Throws OutputError naming `file` unless it can be written, and UsageError unless it ends in `extension` (any when
 /// empty). To be called before any work; nothing for an empty path.
 void check_output(const std::filesystem::path& file, const std::string& extension);
 

@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "runtime/excerpt.hpp"
+#include "cli/standard_output.hpp"
 
 namespace boxwood::cli {
 
@@ -65,7 +66,7 @@ ExitCode fail_parse(const CLI::App& tool, const CLI::ParseError& error) {
     return fail(usage, std::string(error.what()) + " (see boxwood" + command + " --help)");
 }
 
-int run(int argc, char** argv) {
+int run_command(int argc, char** argv) {
     CLI::App tool("Bounding-box trees built and traced by OpenCL kernels.", "boxwood");
     tool.set_version_flag("--version", std::string("boxwood ") + BOXWOOD_VERSION);
     tool.require_subcommand(1);
@@ -82,6 +83,13 @@ int run(int argc, char** argv) {
     for (const Command& command : commands)
         if (command.app->parsed()) return guarded(command.run);
     return usage;
+}
+
+int run(int argc, char** argv) {
+    StandardOutput output;
+    const int code = run_command(argc, argv);
+    const std::string failure = output.finish();
+    return code == done && !failure.empty() ? fail(failed, failure) : code;
 }
 
 } // namespace

@@ -43,8 +43,9 @@ struct Arguments {
     std::filesystem::path checkpoint() const { return output.string() + ".resume"; }
 };
 
-/// What was made, for report and summary.
+/// What was made, with what there is to say of it.
 struct Result {
+    Image image;
     Json report;
     RenderWork work;
     std::uint64_t rejected = 0;
@@ -131,20 +132,17 @@ double samples_per_s(const RenderOptions& options, const RenderWork& work) {
     return work.ms > 0.0 ? pixels * (work.samples - work.resumed) / (1e-3 * work.ms) : 0.0;
 }
 
-/// Renders, writes the pictures, and says what there is to report of them.
-Result render_pictures(Device& device, const Arguments& arguments, const RenderOptions& options,
-                       const std::string& environment, Render& render, const InterruptGuard& guard,
-                       Progress& progress) {
+Result render_picture(Device& device, const Arguments& arguments, const RenderOptions& options,
+                      const std::string& environment, Render& render, const InterruptGuard& guard, Progress& progress) {
     if (arguments.resume) resume(render, arguments.checkpoint());
     device.take_profile();
     Result result;
     result.work = take_samples(device, render, options.light.samples,
                                {arguments.checkpoint(), arguments.checkpoint_seconds}, guard, progress);
     result.profile = device.take_profile();
-    progress.step("writing " + arguments.output.string());
-    Image image = render.image();
-    image.attributes["scene"] = arguments.input.stem().string();
-    image.attributes["environmentName"] = environment;
+    result.image = render.image();
+    result.image.attributes["scene"] = arguments.input.stem().string();
+    result.image.attributes["environmentName"] = environment;
     result.rejected = render.rejected_samples();
     result.report = {{"image", arguments.output.string()},
                      {"preview", arguments.preview().string()},
@@ -154,16 +152,8 @@ Result render_pictures(Device& device, const Arguments& arguments, const RenderO
                      {"samples_per_s", samples_per_s(options, result.work)},
                      {"rejected_samples", result.rejected},
                      {"interrupted", result.work.interrupted},
-                     {"channels", image.channels.size()}};
+                     {"channels", result.image.channels.size()}};
     add_times(result.profile, result.report);
-    try {
-        save_exr(arguments.output, image);
-        save_preview(arguments, options.light.integrator, image, result.report);
-    } catch (const InputError&) {
-        save_checkpoint(render, arguments.checkpoint()); // so that the samples are not lost with the pictures
-        throw;
-    }
-    if (result.work.interrupted) result.work.not_saved = save_checkpoint(render, arguments.checkpoint());
     return result;
 }
 
@@ -234,13 +224,27 @@ void check(const Arguments& arguments) {
                   << " is there: --resume goes on from it; this render starts anew\n";
 }
 
+/// Pictures and report. Where one of them cannot be written, or not all samples are taken, they are kept for another run.
+Kept write_outputs(const Arguments& arguments, const Render& render, Result& result, Json& report) {
+    try {
+        save_exr(arguments.output, result.image);
+        save_preview(arguments, arguments.light.options.integrator, result.image, result.report);
+        report["render"] = result.report;
+        save_report(arguments.report, report);
+        result.image = {};
+        return result.work.interrupted ? keep_samples(render, result.work, arguments.checkpoint()) : Kept{};
+    } catch (const OutputError& error) {
+        const Kept kept = keep_samples(render, result.work, arguments.checkpoint());
+        throw Error(error.what() + std::string(kept.all ? ", but " : ", and ") + kept.words);
+    }
+}
+
 /// A checkpoint of a finished render is of no use; one that another render left is not this one's to remove.
-void finish(const Arguments& arguments, const RenderWork& work, std::uint32_t samples) {
+void finish(const Arguments& arguments, const RenderWork& work, const Kept& kept, std::uint32_t samples) {
     if (work.interrupted)
         throw Interrupted("interrupted after " + std::to_string(work.samples) + " of " + std::to_string(samples) +
-                          " samples: " + arguments.output.string() + " shows those, " +
-                          (work.not_saved.empty() ? "and --resume goes on from " + arguments.checkpoint().string()
-                                                  : "but no checkpoint was saved: " + work.not_saved));
+                          " samples: " + arguments.output.string() + " shows those, " + (kept.all ? "and " : "but ") +
+                          kept.words);
     std::error_code ignored;
     if ((arguments.resume || work.saved) && std::filesystem::is_regular_file(arguments.checkpoint(), ignored))
         std::filesystem::remove(arguments.checkpoint(), ignored);
@@ -267,7 +271,8 @@ void run(const Arguments& arguments) {
         print_warnings(arguments.environment, around.warnings);
     }
     const InterruptGuard guard; // until all is written: a signal meanwhile cuts no output off
-    const Result result = render_pictures(device, arguments, options, around.name, render, guard, progress);
+    Result result = render_picture(device, arguments, options, around.name, render, guard, progress);
+    progress.step("writing " + arguments.output.string());
 
     std::vector<std::string> query = words(needs);
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
@@ -280,12 +285,11 @@ void run(const Arguments& arguments) {
         report["scene"]["warnings"].push_back(around.name + ": " + warning);
     report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;
-    report["render"] = result.report;
-    save_report(arguments.report, report);
+    const Kept kept = write_outputs(arguments, render, result, report);
     progress.clear();
     if (!arguments.common.quiet) print_summary(arguments, options, result, camera, around);
     if (arguments.common.profile) print_profile(prepared, result.profile);
-    finish(arguments, result.work, options.light.samples);
+    finish(arguments, result.work, kept, options.light.samples);
 }
 
 /// Neither NaN, which CLI::Range lets pass, nor what becomes 0 as a float.

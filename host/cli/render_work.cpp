@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <utility>
 
 #include "boxwood/error.hpp"
@@ -41,20 +42,32 @@ std::string duration(double seconds) {
 void resume(Render& render, const std::filesystem::path& file) { render.restore(file_bytes(file), file.string()); }
 
 std::string save_checkpoint(const Render& render, const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = render.state();
     try {
+        const std::vector<std::byte> bytes = render.state();
         AtomicFile out(file);
         out.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         out.commit();
         return "";
-    } catch (const InputError& error) {
+    } catch (const OutputError& error) {
         return error.what();
+    } catch (const std::bad_alloc&) {
+        return "out of host memory";
     }
+}
+
+Kept keep_samples(const Render& render, const RenderWork& work, const std::filesystem::path& file) {
+    const std::string failure = save_checkpoint(render, file);
+    const std::string resume_words = "--resume goes on from " + file.string();
+    if (failure.empty()) return {true, resume_words};
+    std::error_code ignored;
+    const bool older = work.saved > 0 && std::filesystem::is_regular_file(file, ignored);
+    return {false, "no checkpoint was saved: " + failure +
+                       (older ? "; " + resume_words + " with " + std::to_string(work.saved) + " samples" : "")};
 }
 
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
                         const InterruptGuard& guard, Progress& progress) {
-    RenderWork work{render.samples(), render.samples(), 0.0, false, false, ""};
+    RenderWork work{render.samples(), render.samples(), 0.0, render.samples(), false};
     bool warned = false;
     const auto start = Clock::now();
     auto saved = start;
@@ -71,7 +84,7 @@ RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, c
         work.samples = render.samples();
         if (checkpoints.seconds && !render.done() && seconds_since(saved) >= *checkpoints.seconds) {
             const std::string failure = save_checkpoint(render, checkpoints.file);
-            work.saved |= failure.empty();
+            if (failure.empty()) work.saved = work.samples;
             if (!failure.empty() && !std::exchange(warned, true)) {
                 progress.clear();
                 std::cerr << "boxwood: warning: no checkpoint was saved: " << failure << '\n';

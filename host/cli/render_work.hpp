@@ -23,9 +23,14 @@ struct RenderWork {
     std::uint32_t resumed = 0; ///< Samples that a checkpoint brought.
     std::uint32_t samples = 0; ///< Those and the ones taken.
     double ms = 0.0;           ///< For those taken, without the compilation of programs.
+    std::uint32_t saved = 0;   ///< Those of the last checkpoint that was read or written; 0 without one.
     bool interrupted = false;
-    bool saved = false;    ///< A checkpoint was written on the way.
-    std::string not_saved; ///< Interrupted: why no checkpoint could be written; empty when one was.
+};
+
+/// What there is for --resume of samples whose picture is not whole or not written.
+struct Kept {
+    bool all = false;
+    std::string words; ///< "--resume goes on from ...", with the reason before it unless it has all.
 };
 
 /// Reads the checkpoint. Throws InputError when there is none, or as Render::restore does.
@@ -33,6 +38,9 @@ void resume(Render& render, const std::filesystem::path& file);
 
 /// Writes what is needed to go on. Returns why that failed, empty when it did not: no reason to lose the picture.
 std::string save_checkpoint(const Render& render, const std::filesystem::path& file);
+
+/// The same in the end; where it fails, an older checkpoint stays.
+Kept keep_samples(const Render& render, const RenderWork& work, const std::filesystem::path& file);
 
 /// Takes samples until all are done or the user interrupts; a checkpoint of the end is left to the caller. The first one that
 /// cannot be written is warned of on standard error. Waits.

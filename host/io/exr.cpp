@@ -124,7 +124,7 @@ void save_exr(const std::filesystem::path& file, const Image& image) {
     } catch (const InputError&) {
         throw;
     } catch (const std::exception& problem) {
-        throw InputError(file.string(), "", std::string("OpenEXR cannot write it: ") + problem.what());
+        throw OutputError(file.string(), std::string("OpenEXR cannot write it: ") + problem.what());
     }
     out.commit();
 }

@@ -45,6 +45,9 @@ ProgramError::ProgramError(std::string file_, std::string device_, std::string o
 InputError::InputError(std::string file_, std::string where_, const std::string& what)
     : Error(input_message(file_, where_, what)), file(std::move(file_)), where(std::move(where_)) {}
 
+OutputError::OutputError(std::string file_, const std::string& what)
+    : Error(input_message(file_, "", what)), file(std::move(file_)) {}
+
 CapacityError::CapacityError(const std::string& what, std::uint64_t asked_, std::uint64_t available_)
     : Error(what + ": " + std::to_string(asked_) + " asked, " + std::to_string(available_) + " available"),
       asked(asked_), available(available_) {}

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t bxw_version = 5;
 
 /// Writes scene and tree as a little-endian container (magic, version, section table, checksum per section;
 /// host/io/bxw_format.hpp has the layout), atomically: on failure nothing is left under `file`. Throws InputError when
-/// scene or tree does not validate, so that no file is written that load_bxw refuses, or when the file cannot be
+/// scene or tree does not validate, so that no file is written that load_bxw refuses, and OutputError when the file cannot be
 /// written. O(bytes); copies no big array.
 void save_bxw(const std::filesystem::path& file, const Scene& scene, const TreeImage& tree);
 

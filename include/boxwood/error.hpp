@@ -45,6 +45,15 @@ public:
     std::string where;
 };
 
+/// An output (a file, standard output) cannot be written.
+class OutputError : public Error {
+public:
+    /// `what` holds the system's reason, and what to do where that does not say it.
+    OutputError(std::string file, const std::string& what);
+
+    std::string file;
+};
+
 /// The work does not fit the device. Thrown before any of it is done.
 class CapacityError : public Error {
 public:

@@ -24,7 +24,7 @@ Scene load_gltf(const std::filesystem::path& file);
 /// Writes `scene` as binary glTF (meshes, nodes, cameras, materials, pictures, lights), atomically: on failure no file is left
 /// under `file`. Loading it again gives an equal scene, but for numbers that nothing reads, such as a cutoff without its alpha
 /// mode, for turned transforms of textures, which are rounded, and for sheared ones, which lose the shear. Throws InputError when
-/// the file cannot be written or would pass 4 GiB.
+/// the file would pass 4 GiB, and OutputError when it cannot be written.
 void save_glb(const std::filesystem::path& file, const Scene& scene);
 
 } // namespace boxwood

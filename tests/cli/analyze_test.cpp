@@ -156,7 +156,7 @@ TEST_CASE("analyze: two levels, tables, an empty scene, and wrong usage") {
     tool.succeed("analyze empty.gltf");
     CHECK(tool.run("analyze missing.glb").code == 3);
     CHECK(tool.run("analyze empty.gltf --rays-of missing.json").code == 3);
-    CHECK(tool.run("analyze empty.gltf --nodes nowhere/n.json").code == 3);
+    CHECK(tool.run("analyze empty.gltf --nodes nowhere/n.json").code == 1);
     CHECK(tool.run("analyze").code == 2);
     CHECK(tool.run("analyze empty.gltf --nodes n.json --report n.json").code == 2);
 }

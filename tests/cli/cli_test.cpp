@@ -18,18 +18,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// A failure as the tool promises it: this code, one line that starts with the tool's name and holds `word`, nothing
-/// on standard output.
-void check_failure(const Run& run, int code, const std::string& word) {
-    CAPTURE(run.err);
-    CHECK(run.code == code);
-    CHECK(run.err.starts_with("boxwood: "));
-    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
-    CHECK(run.err.ends_with('\n'));
-    CHECK(run.err.find(word) != std::string::npos);
-    CHECK(run.out.empty());
-}
-
 /// The smallest scene with several instances.
 void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
 
@@ -117,15 +105,25 @@ TEST_CASE("cli: bad input is code 3, names the file, and leaves nothing behind")
     CHECK(tool.files() == before);
 }
 
-TEST_CASE("cli: an output that cannot be written is found before the work") {
+TEST_CASE("cli: an output that cannot be written is code 1, with the system's reason, before the work") {
     const Tool tool;
     make_forest(tool);
-    check_failure(tool.run("build forest.glb -o nowhere/x.bxw"), 3, "nowhere");
-    check_failure(tool.run("build missing.glb -o nowhere/x.bxw"), 3, "nowhere"); // before the scene is read
-    check_failure(tool.run("build forest.glb -o x.bxw --report nowhere/x.json"), 3, "nowhere");
-    check_failure(tool.run("trace forest.glb --report nowhere/x.json"), 3, "nowhere");
-    check_failure(tool.run("render forest.glb -o nowhere/x.exr"), 3, "nowhere");
-    check_failure(tool.run("scene sphere -o nowhere/x.glb"), 3, "nowhere");
+    for (const auto& [name, reason] : {std::pair{"nowhere/x", "the folder nowhere does not exist"},
+                                       {"forest.glb/x", "Not a directory"},
+                                       {"/proc/self/x", "cannot be created: "}}) {
+        const std::string file = name;
+        check_failure(tool.run("build forest.glb -o " + file + ".bxw"), 1, reason);
+        check_failure(tool.run("build missing.glb -o " + file + ".bxw"), 1, reason); // before the scene is read
+        check_failure(tool.run("build forest.glb -o x.bxw --report " + file + ".json"), 1, reason);
+        check_failure(tool.run("trace forest.glb --report " + file + ".json"), 1, reason);
+        check_failure(tool.run("quality forest.glb --report " + file + ".json"), 1, reason);
+        check_failure(tool.run("analyze forest.glb --nodes " + file + ".json"), 1, reason);
+        check_failure(tool.run("info forest.glb --boxes " + file + ".glb"), 1, reason);
+        check_failure(tool.run("render forest.glb -o " + file + ".exr"), 1, reason);
+        check_failure(tool.run("scene sphere -o " + file + ".glb"), 1, reason);
+    }
+    check_failure(tool.run("build forest.glb -o x.bxw --report ."), 1, "is a folder");
+    check_failure(tool.run("build forest.glb -o x.bxw --report /dev/null"), 1, "not a regular file");
     CHECK(tool.files() == Names{"forest.glb"});
 }
 
@@ -179,11 +177,13 @@ TEST_CASE("cli: a process killed while it writes leaves no file under the final 
         // The system kills the process when a file passes 2 MiB. Every output here is larger, and no file that an
         // OpenCL compiler keeps in its cache is.
         const Run killed = tool.run(arguments, "ulimit -c 0; ulimit -f 4096;");
-        CHECK(killed.code > 128);
+        // A device's compiler may take the first signal for itself, and the write then fails.
+        CHECK((killed.code > 128 || (killed.code == 1 && !arguments.starts_with("scene"))));
         CHECK_FALSE(std::filesystem::exists(tool.file(output)));
         // With the signal ignored it is a failed write: an error, no file, and an older one untouched.
         tool.write(output, old);
-        check_failure(tool.run(arguments, "trap '' XFSZ; ulimit -f 4096;"), 3, output.substr(0, 2));
+        check_failure(tool.run(arguments, "trap '' XFSZ; ulimit -f 4096;"), 1,
+                      output.substr(0, output.find(' ')) + ": cannot be written: File too large");
         CHECK(tool.contents(output) == old);
     }
 }

@@ -20,15 +20,6 @@ namespace {
 using Json = nlohmann::json;
 using Names = std::vector<std::string>;
 
-void check_failure(const Run& run, int code, const std::string& word) {
-    CAPTURE(run.err);
-    CHECK(run.code == code);
-    CHECK(run.err.starts_with("boxwood: "));
-    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
-    CHECK(run.err.find(word) != std::string::npos);
-    CHECK(run.out.empty());
-}
-
 void make_scenes(const Tool& tool) {
     tool.succeed("scene cornell -o room.glb");
     tool.succeed("scene forest --instances 20 -o forest.glb");

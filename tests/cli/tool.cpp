@@ -31,6 +31,16 @@ std::string slurp(const fs::path& file) {
 
 } // namespace
 
+void check_failure(const Run& run, int code, const std::string& word) {
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    CHECK(run.err.starts_with("boxwood: "));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.err.ends_with('\n'));
+    CHECK(run.err.find(word) != std::string::npos);
+    CHECK(run.out.empty());
+}
+
 Tool::Tool() {
     static std::atomic<int> count = 0;
     folder_ = fs::temp_directory_path() / ("boxwood-cli-" + std::to_string(getpid()) + "-" + std::to_string(count++));

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <cerrno>
 #include <csignal>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,7 +21,7 @@
 TEST_SUITE_BEGIN("io");
 
 using boxwood::AtomicFile;
-using boxwood::InputError;
+using boxwood::OutputError;
 using boxwood::test::read_bytes;
 using boxwood::test::TemporaryFolder;
 using boxwood::test::write_bytes;
@@ -84,7 +91,7 @@ TEST_CASE("a name that cannot be written is refused at once, by its name") {
     const auto refused = [](const std::filesystem::path& file) {
         try {
             AtomicFile out(file);
-        } catch (const InputError& error) {
+        } catch (const OutputError& error) {
             return error.file == file.string();
         }
         return false;
@@ -117,8 +124,8 @@ TEST_CASE("a failed write shows at commit and leaves nothing") {
             AtomicFile out(file);
             out.stream() << std::string(100000, 'x');
             out.commit();
-        } catch (const InputError& error) {
-            refused = error.file == file.string();
+        } catch (const OutputError& error) {
+            refused = error.file == file.string() && std::string(error.what()).ends_with(std::strerror(EFBIG));
         }
         ::_exit(refused ? 42 : 1);
     });
@@ -139,10 +146,65 @@ TEST_CASE("a process that dies while it writes leaves nothing under the final na
     const int exited = in_child([&] { write_some([] { ::_exit(7); }); });
     CHECK(WIFEXITED(exited));
     CHECK(WEXITSTATUS(exited) == 7);
+    CHECK(folder.entries() == 1); // the temporary, which shows that the child got that far
     const int killed = in_child([&] { write_some([] { ::raise(SIGKILL); }); });
     CHECK(WIFSIGNALED(killed));
     CHECK_FALSE(std::filesystem::exists(file));
-    CHECK(folder.entries() == 2); // the temporaries, which show that both children got that far
+    CHECK(folder.entries() == 1); // its own: that of the first is removed
+}
+
+TEST_CASE("temporaries of dead processes are removed by the next file of that name, and no other file is") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "out.bin";
+    // The process of a child that has ended: no other gets its number so soon.
+    pid_t dead = 0;
+    int channel[2];
+    REQUIRE(::pipe(channel) == 0);
+    in_child([&] {
+        AtomicFile out(file);
+        out.stream() << "half" << std::flush;
+        const pid_t self = ::getpid();
+        ::_exit(::write(channel[1], &self, sizeof self) == sizeof self ? 0 : 1);
+    });
+    REQUIRE(::read(channel[0], &dead, sizeof dead) == sizeof dead);
+    const std::string process = std::to_string(dead), self = std::to_string(::getpid());
+    REQUIRE(folder.entries() == 1);
+    const auto add = [&](const std::string& name) { write_bytes(folder.path() / name, "of another"); };
+    const std::vector<std::string> others = {
+        "out.bin.1.0.tmp", // of a living process
+        "out.bin." + process + ".tmp",
+        "out.bin." + process + ".0.tmp.bak",
+        "out.bin." + process + ".x.tmp",
+        "out.bin.-" + process + ".0.tmp",
+        "out.bin.0.0.tmp",
+        "out.bin..tmp",
+        "out.bin.tmp",
+        "xout.bin." + process + ".0.tmp",
+        "out.bin2." + process + ".0.tmp",
+    };
+    for (const std::string& name : others) add(name);
+    std::filesystem::create_symlink(folder.path() / "out.bin.tmp", folder.path() / ("out.bin." + process + ".77.tmp"));
+    std::filesystem::create_directory(folder.path() / ("out.bin." + process + ".78.tmp"));
+    add("out.bin." + process + ".79.tmp");      // left, as that of the child
+    add("out.bin." + self + ".4000000000.tmp"); // left by one that had this process's number, in another container
+    {
+        // One that is still written, by its lock: the process may be of another container, and seem dead.
+        const auto locked = folder.path() / ("out.bin." + process + ".80.tmp");
+        std::ofstream(locked) << "living";
+        const int lock = ::open(locked.c_str(), O_WRONLY | O_CLOEXEC);
+        REQUIRE(::flock(lock, LOCK_EX) == 0);
+        AtomicFile first(file); // not those of this process that are still written either
+        AtomicFile second(file);
+        CHECK(folder.entries() == others.size() + 5);
+        ::close(lock);
+        second.commit();
+        first.commit();
+    }
+    AtomicFile(file).commit();
+    CHECK(folder.entries() == others.size() + 3); // with the link, the folder and the file itself
+    for (const std::string& name : others) CHECK(std::filesystem::exists(folder.path() / name));
+    ::close(channel[0]);
+    ::close(channel[1]);
 }
 
 TEST_SUITE_END();

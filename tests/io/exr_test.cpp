@@ -125,7 +125,7 @@ TEST_CASE("an image that EXR cannot hold is refused and nothing is written") {
     CHECK(where({0, 2, {{"R", {}}}}) == "");
     CHECK(where({0xffffffffu, 1, {{"R", four}}}) == "");
     CHECK(folder.entries() == 0);
-    CHECK_THROWS_AS(save_exr(folder.path() / "missing" / "a.exr", {2, 2, {{"R", four}}}), InputError);
+    CHECK_THROWS_AS(save_exr(folder.path() / "missing" / "a.exr", {2, 2, {{"R", four}}}), OutputError);
 }
 
 TEST_CASE("a channel name of 255 characters is kept") { // more than the 31 of OpenEXR's short names

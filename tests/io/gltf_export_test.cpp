@@ -128,7 +128,7 @@ TEST_CASE("materials, textures, pictures, lights and attributes come back") {
 
 TEST_CASE("nothing is written when it cannot be, or when the scene is broken") {
     const auto folder = std::filesystem::temp_directory_path() / ("boxwood-no-folder-" + std::to_string(::getpid()));
-    CHECK_THROWS_AS(save_glb(folder / "scene.glb", one_triangle()), InputError);
+    CHECK_THROWS_AS(save_glb(folder / "scene.glb", one_triangle()), OutputError);
     CHECK(!std::filesystem::exists(folder));
 
     const auto file =

@@ -51,7 +51,7 @@ TEST_CASE("an image that PNG cannot hold is refused and nothing is written") {
     CHECK_THROWS_AS(save_png(file, 0, 2, {}), InputError);
     CHECK_THROWS_AS(save_png(file, 0xffffffffu, 0xffffffffu, twelve), InputError);
     CHECK(folder.entries() == 0);
-    CHECK_THROWS_AS(save_png(folder.path() / "missing" / "a.png", 2, 2, twelve), InputError);
+    CHECK_THROWS_AS(save_png(folder.path() / "missing" / "a.png", 2, 2, twelve), OutputError);
 }
 
 TEST_SUITE_END();
