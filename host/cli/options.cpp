@@ -5,6 +5,7 @@
 
 #include "boxwood/device.hpp"
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "io/atomic_file.hpp"
 
 namespace boxwood::cli {
@@ -27,6 +28,7 @@ std::vector<std::string> bounds_words() {
 }
 
 Device open_device(const Common& common) {
+    const InterruptsBlocked blocked;
     try {
         return Device(common.device);
     } catch (const DeviceError& error) {
