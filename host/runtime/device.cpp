@@ -10,25 +10,44 @@
 
 #include "boxwood/error.hpp"
 #include "runtime/device_state.hpp"
+#include "runtime/memory_limit.hpp"
+#include "runtime/pocl.hpp"
 
 namespace boxwood {
 
 namespace {
 
-/// PoCL reads this when it starts its threads. Unpinned, they are woken on one core and share it for the first
-/// milliseconds, which halves the speed of short kernels. The user's own setting stands.
-void pin_pocl_threads() { setenv("POCL_AFFINITY", "1", 0); }
-
-std::vector<cl::Device> all_devices() {
-    pin_pocl_threads();
+std::vector<cl::Platform> all_platforms() {
     std::vector<cl::Platform> platforms;
-    std::vector<cl::Device> devices;
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error&) { // no platform at all is reported as an error by the loader
-        return {};
     }
-    for (const cl::Platform& platform : platforms) {
+    return platforms;
+}
+
+/// Also where PoCL has no device.
+bool has_pocl() {
+    const std::vector<cl::Platform> platforms = all_platforms();
+    return std::any_of(platforms.begin(), platforms.end(),
+                       [](const cl::Platform& platform) { return is_pocl(platform.getInfo<CL_PLATFORM_NAME>()); });
+}
+
+/// PoCL ends the process, or waits for ever, where it cannot even start its threads and load its compiler.
+void check_address_space() {
+    constexpr std::uint64_t needed = std::uint64_t{512} << 20;
+    static const std::uint64_t left = process_limit(); // before there are drivers
+    if (left < needed)
+        throw DeviceError(0, "choosing a device", "",
+                          "limits of this process (ulimit -v, ulimit -d) leave " + std::to_string(left) +
+                              " bytes of memory; OpenCL drivers need " + std::to_string(needed));
+}
+
+std::vector<cl::Device> all_devices() {
+    check_address_space();
+    pin_pocl_threads();
+    std::vector<cl::Device> devices;
+    for (const cl::Platform& platform : all_platforms()) {
         std::vector<cl::Device> found;
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
@@ -66,6 +85,8 @@ DeviceInfo describe(const cl::Device& device, std::size_t index) {
     info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     info.global_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.largest_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    if (info.cpu) info.global_bytes = std::min(info.global_bytes, usable_by_device(memory_limit()));
+    info.largest_buffer_bytes = std::min(info.largest_buffer_bytes, info.global_bytes);
     return info;
 }
 
@@ -108,8 +129,11 @@ Device::Device(const std::string& selector) {
     std::string wanted = selector;
     if (const char* variable = std::getenv("BOXWOOD_DEVICE"); wanted.empty() && variable) wanted = variable;
     const std::vector<DeviceInfo> infos = list_devices();
-    if (infos.empty())
-        throw DeviceError(0, "choosing a device", "", "no OpenCL device found; install one, such as pocl-opencl-icd");
+    if (infos.empty()) {
+        const std::string fault = has_pocl() ? pocl_cache_fault() : "";
+        throw DeviceError(0, "choosing a device", "",
+                          fault.empty() ? "no OpenCL device found; install one, such as pocl-opencl-icd" : fault);
+    }
     const auto found = wanted.empty() ? infos.begin() : std::find_if(infos.begin(), infos.end(), [&](const auto& info) {
         return selects(wanted, info);
     });

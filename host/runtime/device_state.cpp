@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "boxwood/error.hpp"
 #include "runtime/kernel_text.hpp"
+#include "runtime/pocl.hpp"
 
 namespace boxwood::detail {
 
@@ -42,8 +44,14 @@ const cl::Program& DeviceState::program(const std::string& file, const std::stri
     cl::Program built(context, text);
     try {
         built.build(device, options.c_str());
-    } catch (const cl::Error&) {
+    } catch (const cl::Error& error) {
+        if (const std::string fault = is_pocl(info.platform) ? pocl_cache_fault() : ""; !fault.empty())
+            throw DeviceError(error.err(), "compiling " + file, "", fault);
         throw ProgramError(file, info.name, options, built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device), text);
+    } catch (const std::bad_alloc&) {
+        // From the compiler through PoCL, which still has the program locked: releasing it would wait for ever.
+        built() = nullptr;
+        throw;
     }
     compile_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return programs_.emplace(key, std::move(built)).first->second;
@@ -111,7 +119,9 @@ DeviceState::Block DeviceState::allocate(std::size_t bytes, const char* label, b
     if (held_bytes + bytes > info.global_bytes)
         throw CapacityError(what + ", in bytes", held_bytes + bytes, info.global_bytes);
     cl_int status = CL_SUCCESS;
-    const cl_mem handle = clCreateBuffer(context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
+    // In the host's memory PoCL would ask for it at the first use, and end the process where there is none left.
+    const cl_mem_flags now = info.cpu ? CL_MEM_ALLOC_HOST_PTR : 0;
+    const cl_mem handle = clCreateBuffer(context(), CL_MEM_READ_WRITE | now, bytes, nullptr, &status);
     if (status != CL_SUCCESS) throw CapacityError(what + ", in bytes", bytes, info.global_bytes - held_bytes);
     held_bytes += bytes;
     peak_bytes = std::max(peak_bytes, held_bytes);

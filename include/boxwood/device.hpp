@@ -25,7 +25,7 @@ struct DeviceInfo {
     std::string language; ///< OpenCL C dialect that Boxwood compiles for: "CL3.0" or "CL1.2".
     bool cpu = false;
     std::uint32_t compute_units = 0;
-    std::uint64_t global_bytes = 0;         ///< Memory of the device.
+    std::uint64_t global_bytes = 0;         ///< Memory of the device; of a CPU, what limits of the process leave it.
     std::uint64_t largest_buffer_bytes = 0; ///< Largest single allocation.
 };
 
@@ -37,7 +37,8 @@ struct Tuning {
     std::uint32_t lanes = 1; ///< Boxes or rays that a work-item treats at once: 1, 8, 16 (cl/runtime/real.h).
 };
 
-/// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform).
+/// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform). Throws
+/// DeviceError when limits of the process leave too little memory to load a driver.
 std::vector<DeviceInfo> list_devices();
 
 /// An OpenCL device with its in-order queue, compiled programs, memory accounting and profile. First argument of
