@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR and --seed=N.
+// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR, --seed=N and --tuning=GROUP,ITEMS,SLICE,LANES.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -77,17 +79,34 @@ std::string take_option(std::vector<char*>& arguments, const std::string& name) 
     return "";
 }
 
+/// "64,2048,4,1": the members of Tuning in their order. Throws std::invalid_argument.
+Tuning to_tuning(const std::string& text) {
+    Tuning tuning;
+    std::istringstream words(text);
+    char commas[3] = {};
+    words >> tuning.group_size >> commas[0] >> tuning.work_items >> commas[1] >> tuning.smallest_slice >> commas[2] >>
+        tuning.lanes;
+    if (!words || words.peek() != EOF || std::string(commas, 3) != ",,,")
+        throw std::invalid_argument("--tuning takes GROUP,ITEMS,SLICE,LANES, such as 64,2048,4,1, not " + text);
+    return tuning;
+}
+
 int run(int argc, char** argv) {
     std::vector<char*> arguments(argv, argv + argc);
     const std::string selector = take_option(arguments, "device");
     if (const std::string value = take_option(arguments, "seed"); !value.empty()) seed = std::stoull(value);
 
+    const std::string tuning = take_option(arguments, "tuning");
+
     doctest::Context context(static_cast<int>(arguments.size()), arguments.data());
     device_under_test = std::make_unique<Device>(selector);
+    if (!tuning.empty()) device_under_test->set_tuning(to_tuning(tuning));
     add_kernels(test_kernels);
     const DeviceInfo& info = device_under_test->info();
+    const Tuning& used = device_under_test->tuning();
     std::cout << "device: " << info.name << "\nplatform: " << info.platform << "\ndriver: " << info.driver << " ("
-              << info.version << ", " << info.language << ")\nseed: " << seed << std::endl;
+              << info.version << ", " << info.language << ")\ntuning: " << used.group_size << ',' << used.work_items
+              << ',' << used.smallest_slice << ',' << used.lanes << "\nseed: " << seed << std::endl;
 
     const int status = context.run();
     if (!context.shouldExit()) {

@@ -52,7 +52,7 @@ Buffer<float> make_film(Device& device, FilmParts parts, std::size_t pixels) {
 
 void add_sample(Device& device, FilmParts parts, const FilmSample& sample, BufferView<float> film) {
     if (sample.count == 0) return;
-    const std::uint32_t lanes = device.info().cpu ? 8 : 1;
+    const std::uint32_t lanes = device.tuning().lanes > 1 ? 8 : 1;
     const Slices slices = cut(device, std::size_t{sample.count} + sample.first_pixel % lanes, lanes);
     const Defines defines{
         {"LIGHTS", std::to_string(parts.lights)}, {"AO", parts.ao ? "1" : "0"}, {"LANES", std::to_string(lanes)}};

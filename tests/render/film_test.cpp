@@ -178,6 +178,25 @@ TEST_CASE("film: one pixel at a time and eight give the same bytes, wherever a b
     }
 }
 
+TEST_CASE("film: pixels at once are those of the tuning, whatever the device, and the bits are the same") {
+    Device device(std::to_string(test_device().info().index)); // with no program compiled yet
+    const std::vector<float> light(3 * 21, 0.1f);
+    std::vector<std::vector<float>> films;
+    for (const std::uint32_t lanes : {16u, 1u, 8u}) {
+        Tuning tuning = device.tuning();
+        tuning.lanes = lanes;
+        device.set_tuning(tuning);
+        const Buffer<float> film = make_film(device, whole, 21);
+        const double before = device.compile_ms();
+        const Buffer<float> sample = upload(device, light, "light");
+        add_sample(device, whole, {{sample}, {}, 0, 21}, film);
+        device.finish();
+        CHECK((device.compile_ms() > before) == (lanes != 8)); // eight of 16 and of 8 lanes, and one: two programs
+        films.push_back(download(device, film));
+        CHECK(same_bits(films.front(), films.back()));
+    }
+}
+
 TEST_CASE("film: what does not fit is refused before it is made") {
     const Device& device = test_device();
     CHECK_THROWS_AS(check_film(device, {.light = {}, .width = 65536, .height = 65536, .aovs = {}}), CapacityError);
