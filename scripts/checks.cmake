@@ -11,6 +11,7 @@ endfunction()
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 boxwood_check(format COMMAND ${scripts}/check_format.sh TIMEOUT 120 PROCESSORS 1)
 boxwood_check(kernels COMMAND ${scripts}/check_kernels.sh TIMEOUT 300 PROCESSORS 1)
+boxwood_check(spirv COMMAND ${scripts}/check_spirv.sh TIMEOUT 300 PROCESSORS 2)
 boxwood_check(oclgrind COMMAND ${scripts}/check_oclgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 1500 PROCESSORS 2)
 boxwood_check(sanitizers COMMAND ${scripts}/check_sanitizers.sh TIMEOUT 1800 PROCESSORS 2)
 boxwood_check(gpu-profile COMMAND ${CMAKE_COMMAND} -E env BOXWOOD_SMALL=1 ${PROJECT_BINARY_DIR}/boxwood-tests

@@ -31,7 +31,8 @@ INLINE uint first_lane(uint mask) { return 31 - clz(mask & -mask); }
 
 INLINE uint last_lane(uint mask) { return 31 - clz(mask); }
 
-#if !PORTABLE_LANES && defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
+// Of the target, since front ends that make SPIR-V have the builtins of the processor that they run on.
+#if !PORTABLE_LANES && defined(__x86_64__) && defined(__AVX__) && __has_builtin(__builtin_ia32_movmskps256)
 INLINE uint lanes8(int8 mask) { return (uint)__builtin_ia32_movmskps256(as_float8(mask)); }
 INLINE uint lanes4(int4 mask) { return (uint)__builtin_ia32_movmskps(as_float4(mask)); }
 #else
