@@ -16,6 +16,7 @@
 // compile: SMALLEST=2 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/eigen.h"
 #include "hierarchy/obb_node.h"
+#include "hierarchy/turn_steps.h"
 #include "runtime/handoff.h"
 
 #define EXTREMES BOXWOOD_EXTREMES // two for each direction
@@ -236,9 +237,7 @@ void refine_frames(global const uint* slot_nodes, global const Aabb* aabbs, glob
     const uint i = (uint)get_global_id(0);
     if (i >= slot_count) return;
     const Nodes nodes = {aabbs, points, stride, 0, 0};
-    // In half turns: steps of a sixteenth (11.25 degrees) about 0, then of an eighth of that, to both sides.
-    const float8 coarse = (float8)(-4, -3, -2, -1, 0, 1, 2, 3) / 16.0f, fine = (float8)(-4, -3, -2, -1, 1, 2, 3, 4) / 128.0f;
-    const float8 steps[4] = {cospi(coarse), sinpi(coarse), cospi(fine), sinpi(fine)};
+    const float8 steps[4] = {COARSE_COSINES, COARSE_SINES, FINE_COSINES, FINE_SINES};
     const uint node = slot_nodes[i];
     Space space;
     space_of(aabbs, &node, &space);

@@ -6,10 +6,9 @@
 // ORIENTED=1: nodes have oriented boxes unless they keep their AABB; 0: AABBs.
 // compile: ORIENTED=0
 // compile: ORIENTED=1
-#include "runtime/numerics.h"
+#include "runtime/products.h"
 #include "primitives/segments.h"
 #include "hierarchy/forest.h"
-#include "runtime/inline.h"
 #include "shared/aabb.h"
 #include "shared/obb.h"
 #include "shared/triangle.h"
@@ -52,8 +51,8 @@ INLINE int clip(float2* polygon, int corners, float3 plane) {
     int count = 0;
     for (int i = 0; i < corners; ++i) {
         const float2 a = polygon[i], b = polygon[i + 1 < corners ? i + 1 : 0];
-        const float at_a = dot(plane, (float3)(1.0f - a.x - a.y, a));
-        const float at_b = dot(plane, (float3)(1.0f - b.x - b.y, b));
+        const float at_a = dot_float3(plane, (float3)(1.0f - a.x - a.y, a));
+        const float at_b = dot_float3(plane, (float3)(1.0f - b.x - b.y, b));
         if (at_a >= 0.0f && count < MOST_CORNERS) kept[count++] = a;
         if ((at_a >= 0.0f) != (at_b >= 0.0f) && count < MOST_CORNERS) kept[count++] = a + at_a / (at_a - at_b) * (b - a);
     }
@@ -129,7 +128,7 @@ void end_point_overlap(global const uint2* children, global const uint* parents,
     global const Triangle* triangle = triangles + position;
     const float3 v0 = vload3(0, triangle->v0);
     const float3 edge1 = (vload3(0, triangle->v1) - v0) / unit, edge2 = (vload3(0, triangle->v2) - v0) / unit;
-    areas[sample] = 0.5f * length(cross(edge1, edge2));
+    areas[sample] = 0.5f * length_float3(cross_float3(edge1, edge2));
 
     const uint tree = segment_of(offsets, trees, position);
     const uint root = offsets[tree + 1] - offsets[tree] > 1 ? offsets[tree] : count + offsets[tree];

@@ -22,7 +22,7 @@
 #define BOXWOOD_HIERARCHY_PROJECTED_AREA_H
 #include "bounds/box.h"
 #include "hierarchy/hull_table.h"
-#include "runtime/inline.h"
+#include "runtime/products.h"
 #include "shared/influence.h"
 
 #define LARGEST_CHANCE 0x1p60f
@@ -43,7 +43,9 @@ INLINE float3 area_direction(const InfluenceRecord* area, float3 point) {
     if (area->point == 0) return forward;
     const float3 way = point - area_origin(area);
     const float scale = fmax(fabs(way.x), fmax(fabs(way.y), fabs(way.z)));
-    return scale > 0.0f ? normalize(way / scale) : forward;
+    if (!(scale > 0.0f)) return forward;
+    const float3 scaled = way / scale;
+    return scaled / sqrt(dot_float3(scaled, scaled));
 }
 
 /// Coordinates along `axis` of the eight corners, which lie at `low` and `high` from the origin. Rounding keeps order along

@@ -4,7 +4,7 @@
 // Both are in units of `unit`, a power of two near the size of the scene, so that neither overflows or vanishes. Unused slots
 // (empty boxes) count nothing; they would otherwise poison every sum.
 // compile:
-#include "runtime/numerics.h"
+#include "runtime/products.h"
 #include "shared/aabb.h"
 #include "shared/obb.h"
 
@@ -29,7 +29,7 @@ inline void measure_aabb(global const Aabb* box, float unit, Measures* result) {
 inline float unit_axis(global const float* row, float3* axis) {
     const float3 v = (float3)(row[0], row[1], row[2]);
     const float largest = max(max(fabs(v.x), fabs(v.y)), fabs(v.z));
-    const float length_over_largest = sqrt(dot(v / largest, v / largest));
+    const float length_over_largest = sqrt(dot_float3(v / largest, v / largest));
     *axis = v / largest / length_over_largest;
     return largest * length_over_largest;
 }
@@ -40,7 +40,7 @@ inline bool measure_obb(global const Obb* box, float unit, Measures* result) {
     float3 normals[3];
     float d[3];
     for (int k = 0; k < 3; ++k) d[k] = box->extent[k] / unit_axis(box->axes + 3 * k, normals + k) / unit;
-    const float det = fabs(dot(normals[0], cross(normals[1], normals[2])));
+    const float det = fabs(dot_float3(normals[0], cross_float3(normals[1], normals[2])));
     if (!(det > 0.0f)) return false;
     result->area = 8.0f * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]) / det;
     result->volume = 8.0f * d[0] * d[1] * d[2] / det;

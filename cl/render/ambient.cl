@@ -20,6 +20,7 @@
 #define SPECULAR 0
 #define STRATEGY 1
 #define UNIFORM_HEMISPHERE 0
+#include "render/elementary.h"
 #include "render/path.h"
 
 #ifndef GROUP_SIZE
@@ -233,7 +234,7 @@ ambient_gather(global const uint* blocked, global const Hit* next_hits, global c
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        const float open = -expm1(-next_hits[i].t / distance);
+        const float open = absorbed_share(next_hits[i].t / distance);
 #if LIGHTS
         const float free = blocked[i] ? 0.0f : 1.0f;
         const float3 light = free * vload3(2 * i, pending);
@@ -285,7 +286,7 @@ occlusion_light(global const Hit* next_hits, float distance, uint count, uint le
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        ao[i] = -expm1(-next_hits[i].t / distance);
+        ao[i] = absorbed_share(next_hits[i].t / distance);
         vstore3((float3)(ao[i]), i, light);
     }
 }

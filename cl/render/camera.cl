@@ -4,6 +4,7 @@
 // GROUP_SIZE  work-items per work-group.
 // compile:
 #include "render/pixel_offset.h"
+#include "runtime/products.h"
 #include "shared/ray.h"
 
 #ifndef GROUP_SIZE
@@ -16,7 +17,7 @@ inline Ray pixel_ray(global const CameraRecord* camera, int x, int y) {
     float3 direction = vload3(0, camera->forward);
     if (camera->perspective) {
         direction += offset;
-        direction /= sqrt(dot(direction, direction));
+        direction /= sqrt(dot_float3(direction, direction));
     } else {
         origin += offset;
     }

@@ -123,9 +123,9 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
     const real right = (real)((float)width), bottom = (real)((float)height);
     const real sine = sqrt(direction->x * direction->x + direction->z * direction->z);
     // By arctangents, which lose no digits at the poles. The middle is -z, the right of it +x. NaN ends at the right and below.
-    const real turn = atan2pi(direction->x, -direction->z);
+    const real turn = atan2_pi(direction->x, -direction->z);
     const real x = LESSER((0.5f + 0.5f * turn) * right, right);
-    const real y = LESSER(atan2pi(sine, direction->y) * bottom, bottom);
+    const real y = LESSER(atan2_pi(sine, direction->y) * bottom, bottom);
     // The last column of patches goes around to the first texel.
     const real x_left = x - 0.5f, x_around = CHOOSE(x_left < 0.0f, x_left + right, x_left);
     uint row[LANES], column[LANES];

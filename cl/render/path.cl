@@ -12,6 +12,7 @@
 // compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=1 ENVIRONMENT=0 STRATEGY=2 SAMPLER=2 LANES=16 TRANSFORMS=1
 #include "render/path.h"
 #include "render/path_sum.h"
+#include "runtime/products.h"
 
 #ifndef GROUP_SIZE
 #error "define GROUP_SIZE"
@@ -139,7 +140,7 @@ INLINE void begin_paths(global const CameraRecord* camera, uint samples, const u
 #if TEXTURES
     // The cone of a pixel, for paths that pass its surface or leave it: as wide as the longer side.
     const float3 right = vload3(0, camera->right), up = vload3(0, camera->up);
-    const float width = 2.0f * fmax(length(right), length(up)) / sqrt((float)samples);
+    const float width = 2.0f * fmax(length_float3(right), length_float3(up)) / sqrt((float)samples);
     if (camera->perspective)
         paths->spread = width;
     else

@@ -4,8 +4,7 @@
 #ifndef BOXWOOD_RENDER_RASTER_H
 #define BOXWOOD_RENDER_RASTER_H
 #include "render/pixel_offset.h"
-#include "runtime/inline.h"
-#include "runtime/numerics.h"
+#include "runtime/products.h"
 #include "shared/raster.h"
 
 // Pixels are looked at when they are this close outside of an edge, relative to the magnitudes that meet in its function, so
@@ -47,7 +46,7 @@ typedef struct Eye {
 INLINE float3 measuring_axis(float3 axis) {
     const float largest = fmax(fmax(fabs(axis.x), fabs(axis.y)), fabs(axis.z));
     const float3 scaled = axis / largest;
-    return scaled / dot(scaled, scaled) / largest;
+    return scaled / dot_float3(scaled, scaled) / largest;
 }
 
 INLINE void make_eye(global const CameraRecord* camera, Eye* eye) {

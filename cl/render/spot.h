@@ -4,8 +4,7 @@
 #ifndef BOXWOOD_RENDER_SPOT_H
 #define BOXWOOD_RENDER_SPOT_H
 #include "render/scene_arrays.h"
-#include "runtime/inline.h"
-#include "runtime/numerics.h"
+#include "runtime/products.h"
 #if TEXTURES
 #include "render/texture.h"
 #endif
@@ -63,8 +62,9 @@ INLINE float4 texture_at(const SceneArrays* scene, const Spot* spot, global cons
     global const float* rows = input->rows;
     const float2 u = (float2)(rows[0], rows[1]), v = (float2)(rows[3], rows[4]);
     return sample_texture(scene->textures + input->texture, scene->texels,
-                          (float2)(dot(u, uv) + rows[2], dot(v, uv) + rows[5]),
-                          (float2)(dot(u, along_x), dot(v, along_x)), (float2)(dot(u, along_y), dot(v, along_y)));
+                          (float2)(dot_float2(u, uv) + rows[2], dot_float2(v, uv) + rows[5]),
+                          (float2)(dot_float2(u, along_x), dot_float2(v, along_x)),
+                          (float2)(dot_float2(u, along_y), dot_float2(v, along_y)));
 }
 #endif
 

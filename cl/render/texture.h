@@ -7,8 +7,9 @@
 //         level for the shorter one (after McCormack et al. 1999)
 #ifndef BOXWOOD_RENDER_TEXTURE_H
 #define BOXWOOD_RENDER_TEXTURE_H
+#include "render/elementary.h"
 #include "render/srgb.h"
-#include "runtime/numerics.h"
+#include "runtime/products.h"
 #include "shared/material.h"
 
 #if !defined(FILTER) || FILTER < 0 || FILTER > 2
@@ -116,9 +117,9 @@ inline float4 bilinear(global const TextureRecord* texture, const Level* level, 
     const int x1 = wrap_index((int)left + 1, level->width, texture->wrap_u);
     const size_t row0 = (size_t)wrap_index((int)top, level->height, texture->wrap_v) * level->width;
     const size_t row1 = (size_t)wrap_index((int)top + 1, level->height, texture->wrap_v) * level->width;
-    const float4 above = mix(read_texel(level, row0 + x0), read_texel(level, row0 + x1), x - left);
-    const float4 below = mix(read_texel(level, row1 + x0), read_texel(level, row1 + x1), x - left);
-    return mix(above, below, y - top);
+    const float4 above = mix_float4(read_texel(level, row0 + x0), read_texel(level, row0 + x1), x - left);
+    const float4 below = mix_float4(read_texel(level, row1 + x0), read_texel(level, row1 + x1), x - left);
+    return mix_float4(above, below, y - top);
 }
 
 /// The two levels around a level of detail, and the share of the second.
@@ -130,7 +131,7 @@ typedef struct Levels {
 /// For texels of `width` times those of level 0.
 inline void find_levels(global const TextureRecord* texture, global const uint* texels, float width, Levels* levels) {
     const uint last = texture->levels - 1;
-    const float detail = clamp(log2(width), 0.0f, (float)last);
+    const float detail = clamp(log2_of(width), 0.0f, (float)last);
     const uint number = (uint)detail;
     levels->share = detail - (float)number;
     find_level(texture, texels, number, &levels->fine);
@@ -141,7 +142,7 @@ inline void find_levels(global const TextureRecord* texture, global const uint* 
 inline float4 trilinear(global const TextureRecord* texture, const Levels* levels, float2 uv) {
     const float2 wrapped = wrap_coordinates(texture, uv);
     const float4 fine = bilinear(texture, &levels->fine, wrapped);
-    return levels->share > 0.0f ? mix(fine, bilinear(texture, &levels->coarse, wrapped), levels->share) : fine;
+    return levels->share > 0.0f ? mix_float4(fine, bilinear(texture, &levels->coarse, wrapped), levels->share) : fine;
 }
 
 /// The ellipse into which the two vectors take a circle as wide as they: its axes in texels of level 0, and the longer one as a
@@ -166,14 +167,14 @@ inline void find_footprint(global const TextureRecord* texture, float2 along_x, 
     const float half_difference = 0.5f * ((a.x * a.x + b.x * b.x) - (a.y * a.y + b.y * b.y));
     const float product = a.x * a.y + b.x * b.y;
     const float root = sqrt(half_difference * half_difference + product * product);
-    const float square = 0.5f * (dot(a, a) + dot(b, b)) + root;
+    const float square = 0.5f * (dot_float2(a, a) + dot_float2(b, b)) + root;
     if (!(square > 0.0f)) return; // one is NaN
     float2 axis;
     if (half_difference > 0.0f)
         axis = (float2)(half_difference + root, product);
     else
         axis = (float2)(product, root - half_difference);
-    const float length = sqrt(square), axis_square = dot(axis, axis);
+    const float length = sqrt(square), axis_square = dot_float2(axis, axis);
     footprint->longer = largest * length;
     footprint->shorter = largest * fabs(a.x * b.y - a.y * b.x) / length;
     if (axis_square > 0.0f) footprint->along = axis / sqrt(axis_square) * footprint->longer / size;

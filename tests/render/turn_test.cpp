@@ -2,12 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "bounds/lanes_of.hpp"
+#include "render/ulps.hpp"
 #include "support.hpp"
 
 using namespace boxwood;
@@ -25,10 +27,9 @@ double sine_of(double turns) {
 
 double cosine_of(double turns) { return sine_of(turns < 0.75 ? 0.25 + turns : turns - 0.75); }
 
-/// In units of the last place of a float near `exact`.
-double ulps(double found, double exact) {
-    const int exponent = exact == 0 ? -126 : std::max(std::ilogb(exact), -126);
-    return std::abs(found - exact) / std::ldexp(1.0, exponent - 23);
+/// The angles of the points (x, y) by the device.
+std::vector<std::array<float, 1>> angles_of(const std::vector<std::array<float, 2>>& points) {
+    return in_lanes("render/turn_test.cl", "angle_test", std::vector<std::array<float, 1>>(points.size()), points);
 }
 
 } // namespace
@@ -73,4 +74,48 @@ TEST_CASE("turn: whole quarters are exact") {
     const float exact[5][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}, {0, 1}};
     for (int i = 0; i < 5; ++i)
         for (int k = 0; k < 2; ++k) CHECK(found[i][k] == exact[i][k]);
+}
+
+TEST_CASE("turn: angles to the last place, at any length of the vector") {
+    std::vector<std::array<float, 2>> points;
+    Random random(test_seed());
+    const auto any_float = [&] {
+        for (;;)
+            if (const float f = std::bit_cast<float>(std::uint32_t(random.bits())); std::isfinite(f)) return f;
+    };
+    for (int i = 0; i < (small_sizes() ? 100 : 1 << 19); ++i) {
+        points.push_back({any_float(), any_float()}); // most lie beside an axis
+        points.push_back({random.uniform(-1, 1), random.uniform(-1, 1)});
+        const float x = random.uniform(-1, 1); // beside a diagonal
+        points.push_back({x, std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + random.below(16) - 8)});
+        points.push_back({std::ldexp(random.uniform(-1, 1), -130), std::ldexp(random.uniform(-1, 1), -130)});
+    }
+    const auto found = angles_of(points);
+    double worst = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double exact = std::atan2(double(points[i][1]), double(points[i][0])) / std::numbers::pi;
+        worst = std::max(worst, ulps(found[i][0], exact));
+        if (std::signbit(found[i][0]) != std::signbit(points[i][1])) FAIL_CHECK("sign of point " << i);
+    }
+    CHECK(worst <= 1.7);
+    MESSAGE("worst in units of the last place: " << worst);
+}
+
+TEST_CASE("turn: angles on axes, on diagonals and of zeros are exact") {
+    const float tiny = std::numeric_limits<float>::denorm_min(), huge = std::numeric_limits<float>::max();
+    std::vector<std::array<float, 2>> points{{0.0f, 0.0f}, {0.0f, -0.0f}, {-0.0f, 0.0f}, {-0.0f, -0.0f}};
+    std::vector<float> exact{0.0f, -0.0f, 1.0f, -1.0f};
+    for (const float r : {tiny, 0x1p-126f, 1.0f, huge}) {
+        points.insert(points.end(),
+                      {{r, 0.0f}, {r, -0.0f}, {-r, 0.0f}, {-r, -0.0f}, {0.0f, r}, {-0.0f, r}, {0.0f, -r}, {-0.0f, -r}});
+        exact.insert(exact.end(), {0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 0.5f, -0.5f, -0.5f});
+        points.insert(points.end(), {{r, r}, {-r, r}, {-r, -r}, {r, -r}});
+        exact.insert(exact.end(), {0.25f, 0.75f, -0.75f, -0.25f});
+    }
+    const auto found = angles_of(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        CAPTURE(points[i][0]);
+        CAPTURE(points[i][1]);
+        CHECK(std::bit_cast<std::uint32_t>(found[i][0]) == std::bit_cast<std::uint32_t>(exact[i]));
+    }
 }

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// compile:
+#include "render/elementary.h"
+
+/// logarithms[i] and shares[i] of numbers[i].
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
+elementary_test(global const float* numbers, global float* logarithms, global float* shares, uint count) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    logarithms[i] = log2_of(numbers[i]);
+    shares[i] = absorbed_share(numbers[i]);
+}
