@@ -33,7 +33,8 @@ INLINE void load_element_in(global const float* positions, global const uint* tr
                             Vector* corners) {
     load_element(positions, triangles, i, corners);
     for (int k = 0; k < CORNERS; ++k) {
-        const Vector p = corners[k];
+        // Component by component: a copy of the whole struct out of the array gives garbage boxes on Mesa's OpenCL.
+        const Vector p = {corners[k].x, corners[k].y, corners[k].z};
         to_space(space, &p, &corners[k]);
     }
 }
