@@ -105,8 +105,11 @@ int run(int argc, char** argv) {
     const DeviceInfo& info = device_under_test->info();
     const Tuning& used = device_under_test->tuning();
     std::cout << "device: " << info.name << "\nplatform: " << info.platform << "\ndriver: " << info.driver << " ("
-              << info.version << ", " << info.language << ")\ntuning: " << used.group_size << ',' << used.work_items
-              << ',' << used.smallest_slice << ',' << used.lanes << "\nseed: " << seed << std::endl;
+              << info.version << ", " << info.language << (info.denormals ? ", " : ", no ")
+              << "denormals, division and square root "
+              << (info.correctly_rounded_divide_sqrt ? "" : "not promised to be ")
+              << "rounded correctly)\ntuning: " << used.group_size << ',' << used.work_items << ','
+              << used.smallest_slice << ',' << used.lanes << "\nseed: " << seed << std::endl;
 
     const int status = context.run();
     if (!context.shouldExit()) {

@@ -12,16 +12,25 @@ namespace {
 
 std::uint64_t mebibytes(std::uint64_t bytes) { return bytes >> 20; }
 
+std::string arithmetic(const DeviceInfo& info) {
+    std::string text = info.denormals ? "denormal numbers" : "no denormal numbers";
+    text += info.correctly_rounded_divide_sqrt ? ", division and square root rounded correctly"
+                                               : ", no promise to round division and square root correctly";
+    if (!info.denormals || !info.correctly_rounded_divide_sqrt) text += ": last digits may differ from other devices'";
+    return text;
+}
+
 void run(const Common& common) {
     const Device chosen = open_device(common);
     if (common.quiet) return;
     for (const DeviceInfo& info : list_devices()) {
         std::cout << (info.index == chosen.info().index ? "* " : "  ") << info.index << "  " << info.name << '\n'
                   << "       " << info.platform << ", driver " << info.driver << ", " << info.version
-                  << ", compiled as " << info.language << '\n'
+                  << (info.language.empty() ? ", cannot be used" : ", compiled as " + info.language) << '\n'
                   << "       " << (info.cpu ? "CPU" : "GPU or other") << ", " << info.compute_units
                   << " compute units, " << mebibytes(info.global_bytes) << " MiB, largest buffer "
-                  << mebibytes(info.largest_buffer_bytes) << " MiB\n";
+                  << mebibytes(info.largest_buffer_bytes) << " MiB\n"
+                  << "       " << arithmetic(info) << '\n';
     }
 }
 

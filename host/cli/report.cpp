@@ -59,6 +59,12 @@ Json level_report(const LevelQuality& level) {
             {"obb_smaller_fraction", level.obb_smaller_fraction}};
 }
 
+Json device_report(const DeviceInfo& info) {
+    return {{"platform", info.platform},   {"name", info.name},
+            {"driver", info.driver},       {"language", info.language},
+            {"denormals", info.denormals}, {"correctly_rounded_divide_sqrt", info.correctly_rounded_divide_sqrt}};
+}
+
 Json scene_report(const Input& input) {
     const Scene& scene = input.scene;
     return {{"file", input.file.string()},
@@ -80,7 +86,6 @@ Json scene_report(const Input& input) {
 
 Json base_report(const Device& device, const Input& input, const Prepared& prepared,
                  const std::vector<std::string>& query) {
-    const DeviceInfo& info = device.info();
     Json options = {{"levels", name(prepared.options.levels)},
                     {"layout", name(prepared.options.layout)},
                     {"bounds", name(prepared.options.bounds.kind)}};
@@ -96,7 +101,7 @@ Json base_report(const Device& device, const Input& input, const Prepared& prepa
     for (const std::string& warning : prepared.warnings) scene["warnings"].push_back(warning);
     const std::uint64_t build_peak = prepared.report ? prepared.report->peak_device_bytes : 0;
     return {{"boxwood", BOXWOOD_VERSION},
-            {"device", {{"platform", info.platform}, {"name", info.name}, {"driver", info.driver}}},
+            {"device", device_report(device.info())},
             {"scene", std::move(scene)},
             {"options", std::move(options)},
             {"requirements", std::move(requirement_words)},

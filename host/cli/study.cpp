@@ -113,9 +113,8 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, configurations.size());
     study_all(device, arguments, scenes, configurations, published, study, progress);
 
-    const DeviceInfo& info = device.info();
     Json report = {{"boxwood", BOXWOOD_VERSION},
-                   {"device", {{"platform", info.platform}, {"name", info.name}, {"driver", info.driver}}},
+                   {"device", device_report(device.info())},
                    {"options", options_report(arguments, study)}};
     add_study(study, report);
     save_report(arguments.report, report);

@@ -10,6 +10,7 @@
 
 #include "boxwood/error.hpp"
 #include "runtime/device_state.hpp"
+#include "runtime/language.hpp"
 #include "runtime/memory_limit.hpp"
 #include "runtime/pocl.hpp"
 
@@ -60,17 +61,19 @@ std::vector<cl::Device> all_devices() {
     return devices;
 }
 
-/// True when the device says so in its version and in its list of dialects. (Oclgrind, a 1.2 device, lists 3.0 and then
-/// refuses it.)
-bool compiles_opencl_c_3(const cl::Device& device) {
-    if (!device.getInfo<CL_DEVICE_VERSION>().starts_with("OpenCL 3")) return false;
+/// Devices before OpenCL 3.0 refuse these questions.
+detail::LanguageOffer language_offer(const cl::Device& device) {
+    detail::LanguageOffer offer{device.getInfo<CL_DEVICE_VERSION>()};
     std::size_t bytes = 0;
-    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, 0, nullptr, &bytes) != CL_SUCCESS) return false;
+    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, 0, nullptr, &bytes) != CL_SUCCESS) return offer;
     std::vector<cl_name_version> versions(bytes / sizeof(cl_name_version));
-    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, bytes, versions.data(), nullptr) != CL_SUCCESS)
-        return false;
-    return std::any_of(versions.begin(), versions.end(),
-                       [](const cl_name_version& each) { return CL_VERSION_MAJOR(each.version) == 3; });
+    if (clGetDeviceInfo(device(), CL_DEVICE_OPENCL_C_ALL_VERSIONS, bytes, versions.data(), nullptr) == CL_SUCCESS)
+        for (const cl_name_version& each : versions) offer.dialects.push_back(each.version);
+    cl_device_atomic_capabilities atomics = 0;
+    if (clGetDeviceInfo(device(), CL_DEVICE_ATOMIC_MEMORY_CAPABILITIES, sizeof atomics, &atomics, nullptr) ==
+        CL_SUCCESS)
+        offer.atomics = atomics;
+    return offer;
 }
 
 DeviceInfo describe(const cl::Device& device, std::size_t index) {
@@ -80,7 +83,10 @@ DeviceInfo describe(const cl::Device& device, std::size_t index) {
     info.name = device.getInfo<CL_DEVICE_NAME>();
     info.driver = device.getInfo<CL_DRIVER_VERSION>();
     info.version = device.getInfo<CL_DEVICE_VERSION>();
-    info.language = compiles_opencl_c_3(device) ? "CL3.0" : "CL1.2";
+    info.language = detail::choose_language(language_offer(device));
+    const cl_device_fp_config arithmetic = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+    info.denormals = (arithmetic & CL_FP_DENORM) != 0;
+    info.correctly_rounded_divide_sqrt = (arithmetic & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     info.cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
     info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     info.global_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
@@ -140,6 +146,11 @@ Device::Device(const std::string& selector) {
     if (found == infos.end())
         throw DeviceError(0, "choosing a device", "",
                           "no device matches \"" + wanted + "\"; there are:" + listing(infos));
+    if (found->language.empty())
+        throw DeviceError(0, "choosing a device", "",
+                          found->name + " (" + found->version +
+                              ") can compile neither OpenCL C 1.2, nor 3.0 with atomics of " +
+                              "acquire and release at device scope; choose another device");
     try {
         state_ = std::make_shared<detail::DeviceState>(all_devices().at(found->index), *found);
     } catch (const cl::Error& error) {

@@ -15,6 +15,7 @@ namespace {
 
 std::string build_options(const Device& device, const Defines& defines) {
     std::string options = "-cl-std=" + device.info().language;
+    if (device.info().correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     options += " -DGROUP_SIZE=" + std::to_string(device.tuning().group_size);
     for (const auto& [macro, value] : defines) options += " -D" + macro + "=" + value;
     return options;

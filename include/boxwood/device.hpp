@@ -21,12 +21,17 @@ struct DeviceInfo {
     std::string platform;
     std::string name;
     std::string driver;
-    std::string version;  ///< OpenCL version of the device.
-    std::string language; ///< OpenCL C dialect that Boxwood compiles for: "CL3.0" or "CL1.2".
+    std::string version; ///< OpenCL version of the device.
+    std::string
+        language; ///< OpenCL C dialect that Boxwood compiles for: "CL3.0", "CL1.2", or "" where it cannot be used.
     bool cpu = false;
     std::uint32_t compute_units = 0;
     std::uint64_t global_bytes = 0;         ///< Memory of the device; of a CPU, what limits of the process leave it.
     std::uint64_t largest_buffer_bytes = 0; ///< Largest single allocation.
+    bool denormals = false;                 ///< Computes with denormal numbers; else they may count as 0.
+    /// Says that it rounds divisions and square roots of floats correctly; it is then asked to. With this and denormals the
+    /// device gives the same bytes as every other such device.
+    bool correctly_rounded_divide_sqrt = false;
 };
 
 /// How work is cut for a device class. Results never depend on it.
@@ -46,7 +51,8 @@ std::vector<DeviceInfo> list_devices();
 class Device {
 public:
     /// `selector` is an index of list_devices() or a part of a device or platform name (any case). Empty: the
-    /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError listing the devices.
+    /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError: listing the devices where none matches, or
+    /// where the device lacks a language for the kernels.
     explicit Device(const std::string& selector = "");
     ~Device();
     Device(Device&&) noexcept;

@@ -33,7 +33,8 @@ void check_keys(const Json& object, const Names& keys) {
 void check_base(const Json& json) {
     check_keys(json, {"boxwood", "device", "scene", "options", "requirements", "passes_ms", "compile_ms",
                       "peak_device_bytes", "quality"});
-    check_keys(json["device"], {"platform", "name", "driver"});
+    check_keys(json["device"],
+               {"platform", "name", "driver", "language", "denormals", "correctly_rounded_divide_sqrt"});
     check_keys(json["scene"], {"meshes", "instances", "triangles", "vertices", "dropped_triangles"});
     CHECK(json["peak_device_bytes"] > 0);
 }

@@ -78,6 +78,8 @@ TEST_CASE("launch: a program that does not compile says file, line, device, opti
         CHECK(error.device == device.info().name);
         CHECK(has(error.options, "-DSOME_MACRO=17"));
         CHECK(has(error.options, "-cl-std=" + device.info().language));
+        CHECK(has(error.options, "-cl-fp32-correctly-rounded-divide-sqrt") ==
+              device.info().correctly_rounded_divide_sqrt);
         CHECK(has(error.log, "not_declared"));
         // As in the file, not in the text with its includes; Oclgrind's log has its own names for files.
         if (device.info().platform != "Oclgrind") CHECK(has(error.log, "launch_test/broken.cl:4"));
