@@ -122,9 +122,10 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
     const uint width = environment->record->width, height = environment->record->height;
     const real right = (real)((float)width), bottom = (real)((float)height);
     const real sine = sqrt(direction->x * direction->x + direction->z * direction->z);
-    // By arctangents, which lose no digits at the poles. The middle is -z, the right of it +x. NaN ends at the right and below.
-    const real turn = atan2_pi(direction->x, -direction->z);
-    const real x = LESSER((0.5f + 0.5f * turn) * right, right);
+    // By arctangents, which lose no digits at the poles. The middle is +x, the right of it +z, but for the picture's own turn. NaN
+    // ends at the right and below.
+    const real turn = 0.5f + 0.5f * atan2_pi(direction->z, direction->x) + environment->record->turn;
+    const real x = LESSER((turn - CHOOSE(turn >= 1.0f, (real)(1.0f), (real)(0.0f))) * right, right);
     const real y = LESSER(atan2_pi(sine, direction->y) * bottom, bottom);
     // The last column of patches goes around to the first texel.
     const real x_left = x - 0.5f, x_around = CHOOSE(x_left < 0.0f, x_left + right, x_left);
@@ -187,9 +188,10 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     const real x = patch.left + across, y = fma(down, patch.height, patch.top);
     real sine, cosine, sine_across, cosine_across;
     sincos_turn(0.5f * (y / (float)height), &sine, &cosine);
-    sincos_turn(x / (float)width, &sine_across, &cosine_across);
-    // Half a turn off: the middle of the picture is -z.
-    const Vector d = {-(sine * sine_across), cosine, sine * cosine_across};
+    const real turn = x / (float)width - environment->record->turn;
+    sincos_turn(turn + CHOOSE(turn < 0.0f, (real)(1.0f), (real)(0.0f)), &sine_across, &cosine_across);
+    // Half a turn off: the middle of the picture is +x.
+    const Vector d = {-(sine * cosine_across), cosine, -(sine * sine_across)};
     *direction = d;
     patch_radiance(&patch, across, down, radiance);
     *pdf = patch_density(environment, &patch, of_row * of_column, across, down, sine);

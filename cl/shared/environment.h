@@ -14,8 +14,9 @@ typedef struct EnvironmentRecord {
     // Where surfaces draw directions, too, those of a picture are drawn by what is brighter than its mean (MIS compensation).
     float floor;                 ///< The mean luminance.
     float irradiance_above_floor;
+    float turn;                  ///< Of the picture, in turns about +y; in [0, 1).
 } EnvironmentRecord;
-BOXWOOD_SHARED_SIZE(EnvironmentRecord, 32)
+BOXWOOD_SHARED_SIZE(EnvironmentRecord, 36)
 
 BOXWOOD_SHARED_END
 #endif

@@ -2,11 +2,13 @@
 #include "cli/light.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
 #include "boxwood/error.hpp"
 #include "boxwood/material.hpp"
+#include "boxwood/render.hpp"
 #include "cli/rays.hpp"
 
 namespace boxwood::cli {
@@ -44,16 +46,25 @@ std::optional<glm::vec3> to_radiance(const std::string& text) {
     return color;
 }
 
-bool lit(const ShadingRequirements& scene, Integrator integrator) {
+bool lit(Device& device, const Scene& scene, const Tree& tree, Integrator integrator) {
     switch (integrator) {
     case Integrator::path:
     case Integrator::direct:
-        return scene.punctual || scene.emission;
-    case Integrator::ambient:
-        return scene.punctual; // it sees no other lamps
+        return has_light(device, scene, tree);
+    case Integrator::ambient: // it sees no other lamps
+        return !scene.lights.empty();
     default:
         return true; // needs none
     }
+}
+
+/// Turns a picture by degrees.
+void rotate(Surroundings& around, std::optional<double> rotation) {
+    if (!rotation) return;
+    if (around.environment.width == 0)
+        throw UsageError("--environment-rotation: the environment is " + around.name +
+                         ", the same from all sides; leave it out");
+    around.environment.rotation = static_cast<float>(*rotation / 180.0 * std::numbers::pi);
 }
 
 } // namespace
@@ -99,8 +110,10 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
               "Texture filter: anisotropic (default), trilinear or nearest");
 }
 
-Surroundings surroundings(const std::string& choice, const ShadingRequirements& scene, Integrator integrator) {
-    if (choice == "sky" || (choice.empty() && !lit(scene, integrator))) return {default_sky(), "sky", {}};
+namespace {
+
+Surroundings chosen_surroundings(const std::string& choice) {
+    if (choice == "sky") return {default_sky(), "sky", {}};
     if (choice == "none" || choice.empty()) return {{}, "none", {}};
     if (const auto radiance = to_radiance(choice)) {
         Environment environment;
@@ -114,6 +127,19 @@ Surroundings surroundings(const std::string& choice, const ShadingRequirements& 
     Surroundings result{{}, file.filename().string(), {}};
     result.environment = load_environment(file, result.warnings);
     return result;
+}
+
+} // namespace
+
+Surroundings surroundings(const std::string& choice, std::optional<double> rotation) {
+    Surroundings around = chosen_surroundings(choice);
+    rotate(around, rotation);
+    return around;
+}
+
+Surroundings surroundings(Device& device, const Scene& scene, const Tree& tree, Integrator integrator,
+                          std::optional<double> rotation) {
+    return surroundings(lit(device, scene, tree, integrator) ? "none" : "sky", rotation);
 }
 
 } // namespace boxwood::cli

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "boxwood/environment.hpp"
 #include "boxwood/render_options.hpp"
-#include "boxwood/requirements.hpp"
+#include "boxwood/scene.hpp"
+#include "boxwood/tree.hpp"
 #include "cli/command.hpp"
 
 namespace boxwood::cli {
@@ -30,8 +33,13 @@ struct Surroundings {
     std::vector<std::string> warnings; ///< Of the file.
 };
 
-/// Of --environment: a file, "sky", "none", or three numbers; when empty, the sky if nothing else lights the scene for this
-/// integrator, else none. Throws UsageError for another word, InputError for a file that cannot be used.
-Surroundings surroundings(const std::string& choice, const ShadingRequirements& scene, Integrator integrator);
+/// Of --environment: a file, "sky", "none", or three numbers; none when empty. `rotation` in degrees. Throws UsageError for another
+/// word and for a rotation of what is the same from all sides, InputError for a file that cannot be used.
+Surroundings surroundings(const std::string& choice, std::optional<double> rotation);
+
+/// Without --environment: the sky if nothing else lights the scene for this integrator, else none. Throws UsageError for a rotation
+/// of none.
+Surroundings surroundings(Device& device, const Scene& scene, const Tree& tree, Integrator integrator,
+                          std::optional<double> rotation);
 
 } // namespace boxwood::cli

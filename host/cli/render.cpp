@@ -30,6 +30,7 @@ struct Arguments {
     std::filesystem::path report;
     View view;
     std::string environment;
+    std::optional<double> environment_rotation; ///< Degrees.
     std::vector<std::string> aovs;
     std::optional<float> exposure;    ///< Of its own accord what suits the picture.
     std::optional<float> ao_distance; ///< > 0
@@ -259,11 +260,14 @@ void run(const Arguments& arguments) {
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
     const Camera camera = choose_camera(input, arguments.view);
-    const ShadingRequirements needs = shading_requirements(input.scene);
-    const Surroundings around = surroundings(arguments.environment, needs, options.light.integrator);
+    const std::optional<double> rotation = arguments.environment_rotation;
+    Surroundings around;
+    if (!arguments.environment.empty()) around = surroundings(arguments.environment, rotation);
     if (!arguments.ao_distance) options.ao_distance = default_ao_distance(input.scene);
     progress.step("building");
     const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
+    if (arguments.environment.empty())
+        around = surroundings(device, input.scene, prepared.tree, options.light.integrator, rotation);
     Render render(device, input.scene, prepared.tree, around.environment, camera, options);
     if (!arguments.common.quiet) {
         progress.clear();
@@ -274,7 +278,7 @@ void run(const Arguments& arguments) {
     Result result = render_picture(device, arguments, options, around.name, render, guard, progress);
     progress.step("writing " + arguments.output.string());
 
-    std::vector<std::string> query = words(needs);
+    std::vector<std::string> query = words(shading_requirements(input.scene));
     if (std::find(options.aovs.begin(), options.aovs.end(), Aov::cost) != options.aovs.end())
         query.push_back("statistics");
     Json report = base_report(device, input, prepared, query);
@@ -285,6 +289,7 @@ void run(const Arguments& arguments) {
         report["scene"]["warnings"].push_back(around.name + ": " + warning);
     report["options"].update(light_report(options, around));
     report["options"]["camera"] = camera.name;
+    if (rotation) report["options"]["environment_rotation"] = *rotation;
     const Kept kept = write_outputs(arguments, render, result, report);
     progress.clear();
     if (!arguments.common.quiet) print_summary(arguments, options, result, camera, around);
@@ -311,8 +316,13 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
     app.add_option(
            "--environment", arguments.environment,
            "Light from all around: an OpenEXR picture of the sphere (FILE.exr), sky, none, or one radiance R,G,B "
-           "(default: sky when nothing else lights the scene, else none)")
+           "(default: sky when neither lights nor lamps light the scene, else none)")
         ->type_name("LIGHT");
+    app.add_option("--environment-rotation", arguments.environment_rotation,
+                   "Turns the picture of the sphere, or the sky, about +y, counter-clockwise as seen from above "
+                   "(default: 0, the middle of the picture at +x and the right of it at +z)")
+        ->check(number_within(-360.0, 360.0))
+        ->type_name("DEGREES");
     app.add_option("--ao-distance", arguments.ao_distance,
                    "World units at which a surface occludes by e^-1, for ambient and ao (default: a tenth of the "
                    "scene's diagonal)")

@@ -66,9 +66,10 @@ std::array<glm::dvec3, 9> ambient_coefficients(const Environment& environment) {
         const double solid_angle = column_angle * (std::cos(top) - std::cos(top + row_angle));
         const double down = top + 0.5 * row_angle;
         for (std::uint32_t x = 0; x < environment.width; ++x) {
-            const double turn = (x + 0.5) * column_angle - pi; // the middle is -z, the right of it +x
+            // The middle is +x, the right of it +z; a rotation is counter-clockwise as seen from above.
+            const double turn = (x + 0.5) * column_angle - pi - double{environment.rotation};
             const auto values =
-                basis({std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)});
+                basis({std::sin(down) * std::cos(turn), std::cos(down), std::sin(down) * std::sin(turn)});
             const glm::dvec3 light =
                 solid_angle * glm::dvec3(environment.pixels[std::size_t{y} * environment.width + x]);
             for (std::size_t k = 0; k < 9; ++k) coefficients[k] += squared_norms[k] * lambert[k] * values[k] * light;

@@ -17,7 +17,7 @@ namespace {
 /// A byte that is not ASCII, the name, and line ends that a text-mode copy would change.
 constexpr std::array<char, 8> magic = {'\x89', 'B', 'X', 'R', '\r', '\n', '\x1a', '\n'};
 /// Of this format, and of what a sample is: a change of either makes another.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 /// What the file begins with; the film's floats follow. Little-endian.
 struct Header {

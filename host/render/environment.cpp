@@ -126,6 +126,14 @@ void check_radiance(const Environment& e) {
         throw InputError("environment", "pixels[" + std::to_string(wrong - e.pixels.begin()) + "]", fault);
 }
 
+/// In turns, within [0, 1).
+float turn_of(const Environment& e) {
+    if (!std::isfinite(e.rotation)) throw InputError("environment", "rotation", "is not finite");
+    const double turns = double{e.rotation} / (2.0 * std::numbers::pi);
+    const auto turn = static_cast<float>(turns - std::floor(turns));
+    return turn < 1.0f ? turn : 0.0f;
+}
+
 } // namespace
 
 EnvironmentMap upload_environment(Device& device, const Environment& environment) {
@@ -148,7 +156,8 @@ EnvironmentMap upload_environment(Device& device, const Environment& environment
                                    environment.height,
                                    static_cast<float>(mean_irradiance(environment, 0.0f)),
                                    floor,
-                                   static_cast<float>(mean_irradiance(environment, floor))};
+                                   static_cast<float>(mean_irradiance(environment, floor)),
+                                   turn_of(environment)};
     map.record = upload(device, std::vector<EnvironmentRecord>{record}, "environment record");
     if (map.kind == EnvironmentKind::picture) upload_picture(device, environment, floor, map);
     return map;

@@ -22,7 +22,7 @@ struct EnvironmentMap {
 };
 
 /// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture whose
-/// pixels are not width * height, or for the first that is not within [0, largest_radiance], and CapacityError when it does not fit. O(pixels).
+/// pixels are not width * height, or for the first that is not within [0, largest_radiance], or a rotation that is not finite, and CapacityError when it does not fit. O(pixels).
 EnvironmentMap upload_environment(Device& device, const Environment& environment);
 
 } // namespace boxwood

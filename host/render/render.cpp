@@ -69,12 +69,16 @@ void add_light_channel(Aov aov, FilmParts parts, const std::vector<float>& film,
     if (aov == Aov::samples) image.channels.push_back({"samples.N", film_samples(parts, means[0].size(), film)});
 }
 
-/// "none", "constant R,G,B" or "picture WxH".
+/// "none", "constant R,G,B", "picture WxH" or "picture WxH turned by RADIANS".
 std::string describe(const Environment& environment) {
-    if (environment.width > 0)
-        return "picture " + std::to_string(environment.width) + "x" + std::to_string(environment.height);
-    if (environment.radiance == glm::vec3(0.0f)) return "none";
     char text[64];
+    if (environment.width > 0) {
+        const std::string size = std::to_string(environment.width) + "x" + std::to_string(environment.height);
+        if (environment.rotation == 0.0f) return "picture " + size;
+        std::snprintf(text, sizeof text, " turned by %.9g", double{environment.rotation});
+        return "picture " + size + text;
+    }
+    if (environment.radiance == glm::vec3(0.0f)) return "none";
     std::snprintf(text, sizeof text, "constant %.9g,%.9g,%.9g", double{environment.radiance.x},
                   double{environment.radiance.y}, double{environment.radiance.z});
     return text;

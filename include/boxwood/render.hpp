@@ -118,6 +118,12 @@ private:
 Image render(Device& device, const Scene& scene, const Tree& tree, const Environment& environment, const Camera& camera,
              const RenderOptions& options = {});
 
+/// Whether a scene needs no sky: it has punctual lights, or lamps light it. Those are triangles that emit, when more than half of
+/// what leaves them meets a surface, as in a room, and when it is more than 2^-10 of what a sky of radiance 1 would give the scene's
+/// box: a sign, a screen or a light-emitting diode on the outside of something does not light it. Textures of emission count as
+/// white, surfaces with alpha as opaque. `tree` is of this scene. By 1024 rays; the same each time. O(triangles).
+bool has_light(Device& device, const Scene& scene, const Tree& tree);
+
 /// Throws CapacityError when the film of a picture of these options does not fit the device, or film and picture together a CPU,
 /// whose memory is the host's: known without a scene.
 void check_film(const Device& device, const RenderOptions& options);

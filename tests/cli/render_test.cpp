@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "boxwood/gltf.hpp"
 #include "boxwood/image.hpp"
 #include "cli/tool.hpp"
 
@@ -131,6 +132,28 @@ TEST_CASE("render tool: the sky lights a scene only when nothing else does, and 
     CHECK(tool.contents("x.png") == sky);
     CHECK(tool.succeed(render + "--environment none").out.find("environment none") != std::string::npos);
     CHECK(tool.contents("x.png") != sky);
+
+    CHECK(tool.succeed(render + "--environment-rotation 90 --report x.json").out.find("environment sky") !=
+          std::string::npos);
+    CHECK(tool.contents("x.png") != sky);
+    CHECK(Json::parse(tool.contents("x.json"))["options"]["environment_rotation"] == 90);
+    for (const std::string same : {"--environment none", "--environment 1,1,1", "--integrator cost"})
+        check_failure(tool.run(render + "--environment-rotation 90 " + same), 2, "--environment-rotation");
+    check_failure(tool.run(render + "--environment-rotation 361"), 2, "--environment-rotation");
+
+    // A sign on the sphere lights nothing, a lamp in a room does.
+    Scene scene = load_gltf(tool.file("sphere.glb"));
+    Material sign;
+    sign.emission = glm::vec3(1.0f);
+    scene.materials = {sign, Material{}};
+    scene.meshes[0].materials.assign(scene.meshes[0].triangles.size(), 1);
+    for (std::size_t i = 0; i < 50; ++i) scene.meshes[0].materials[i] = 0;
+    save_glb(tool.file("sign.glb"), scene);
+    CHECK(tool.succeed("render sign.glb -o x.exr --resolution 16x16 --spp 2").out.find("environment sky (") !=
+          std::string::npos);
+    tool.succeed("scene cornell -o room.glb");
+    CHECK(tool.succeed("render room.glb -o x.exr --resolution 16x16 --spp 2").out.find("environment none") !=
+          std::string::npos);
 
     // One radiance, and a picture that has it everywhere.
     const std::vector<float> ones(8, 1.0f), halves(8, 0.5f);

@@ -249,15 +249,20 @@ TEST_CASE("ambient: what the ambient light is for a normal") {
     CHECK(std::abs(c[0].x - 1.0) < 2e-3); // the midpoint rule of 32 rows
     CHECK(std::abs(c[1].x - 2.0 / 3) < 2e-3);
     for (std::size_t k = 2; k < 9; ++k) CHECK(std::abs(c[k].x) < 3e-3);
-    // A small bright light at -z, the picture's middle, and another at +x: by n . l / pi.
+    // A small bright light at +x, the picture's middle, and another at +z: by n . l / pi.
     std::fill(environment.pixels.begin(), environment.pixels.end(), glm::vec3(0.0f));
     environment.pixels[16 * 64 + 32] = {1, 0, 0};
     environment.pixels[16 * 64 + 48] = {0, 1, 0};
     const auto lamps = ambient_coefficients(environment);
-    CHECK(lamps[2].x < 0.0);
-    CHECK(lamps[3].y > 0.0);
-    CHECK(std::abs(lamps[3].x) < 0.1 * std::abs(lamps[2].x));
-    CHECK(std::abs(lamps[2].y) < 0.1 * std::abs(lamps[3].y));
+    CHECK(lamps[3].x > 0.0);
+    CHECK(lamps[2].y > 0.0);
+    CHECK(std::abs(lamps[2].x) < 0.1 * std::abs(lamps[3].x));
+    CHECK(std::abs(lamps[3].y) < 0.1 * std::abs(lamps[2].y));
+    // Turned by a quarter, counter-clockwise as seen from above, the first is at -z.
+    environment.rotation = static_cast<float>(0.5 * pi);
+    const auto turned = ambient_coefficients(environment);
+    CHECK(turned[2].x == doctest::Approx(-lamps[3].x).epsilon(1e-6));
+    CHECK(turned[3].y == doctest::Approx(lamps[2].y).epsilon(1e-6));
     environment = {};
     environment.radiance = {3, 2, 1};
     CHECK(ambient_coefficients(environment)[0] == glm::dvec3(3, 2, 1));

@@ -74,7 +74,7 @@ Answers ask(const Environment& environment, const std::vector<glm::vec3>& direct
 /// Direction of the place (x, y) of a picture, in texels: include/boxwood/environment.hpp in double precision.
 glm::dvec3 direction_of(const Environment& e, double x, double y) {
     const double theta = pi * y / e.height, phi = 2 * pi * (x / e.width - 0.5);
-    return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+    return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
 }
 
 /// A picture of random texels over four orders of magnitude, a third of them black but not the first.
@@ -103,11 +103,11 @@ std::vector<glm::vec2> grid_points(int across) {
 
 TEST_CASE("environment: axes and centres of texels") {
     const Environment e = random_environment(8, 4);
-    // -z is between the two middle columns, +x three quarters across, +y and -y the means of nothing but their rows.
+    // +x is between the two middle columns, +z three quarters across.
     std::vector<glm::vec3> directions;
     for (std::uint32_t y = 0; y < e.height; ++y)
         for (std::uint32_t x = 0; x < e.width; ++x) directions.push_back(direction_of(e, x + 0.5, y + 0.5));
-    directions.insert(directions.end(), {{0, 0, -1}, {1, 0, 0}, {0, 0, 1}});
+    directions.insert(directions.end(), {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}});
     const Answers answers = ask(e, directions, {});
     const auto near = [](const glm::dvec4& found, const glm::dvec3& wanted) {
         return glm::length(glm::dvec3(found) - wanted) <= 1e-4 * (glm::length(wanted) + 1.0);
@@ -117,6 +117,37 @@ TEST_CASE("environment: axes and centres of texels") {
     CHECK(near(answers.lookups[32], (pixel(3, 1) + pixel(4, 1) + pixel(3, 2) + pixel(4, 2)) / 4.0));
     CHECK(near(answers.lookups[33], (pixel(5, 1) + pixel(6, 1) + pixel(5, 2) + pixel(6, 2)) / 4.0));
     CHECK(near(answers.lookups[34], (pixel(0, 1) + pixel(7, 1) + pixel(0, 2) + pixel(7, 2)) / 4.0));
+}
+
+TEST_CASE("environment: a rotation turns the picture about +y, counter-clockwise as seen from above") {
+    const Environment e = random_environment(8, 4);
+    for (const double angle : {0.5 * pi, -0.3, 2.0 * pi + 1.0}) {
+        CAPTURE(angle);
+        Environment turned = e;
+        turned.rotation = static_cast<float>(angle);
+        std::vector<glm::vec3> directions, there;
+        const glm::dmat3 turn(glm::dvec3(std::cos(angle), 0, -std::sin(angle)), glm::dvec3(0, 1, 0),
+                              glm::dvec3(std::sin(angle), 0, std::cos(angle)));
+        for (std::uint32_t y = 0; y < e.height; ++y)
+            for (std::uint32_t x = 0; x < e.width; ++x) {
+                const glm::dvec3 direction = direction_of(e, x + 0.3, y + 0.6);
+                directions.emplace_back(direction);
+                there.emplace_back(turn * direction);
+            }
+        const std::vector<glm::vec2> points = grid_points(8);
+        const Answers straight = ask(e, directions, points), answers = ask(turned, there, points);
+        for (std::size_t i = 0; i < directions.size(); ++i)
+            CHECK(glm::length(answers.lookups[i] - straight.lookups[i]) <=
+                  1e-4 * (glm::length(straight.lookups[i]) + 1));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            CHECK(glm::length(glm::dvec3(answers.drawn[i]) - turn * glm::dvec3(straight.drawn[i])) <= 1e-5);
+            CHECK(answers.drawn[i].w == straight.drawn[i].w);
+            CHECK(answers.light[i] == straight.light[i]);
+        }
+    }
+    Environment wrong = e;
+    wrong.rotation = std::numeric_limits<float>::infinity();
+    CHECK_THROWS_AS(upload_environment(test_device(), wrong), InputError);
 }
 
 TEST_CASE("environment: the density integrates to 1, is that of what is drawn, and is nowhere 0 where there is light") {
@@ -271,7 +302,7 @@ TEST_CASE("environment: light and density at the poles and beside them") {
         CAPTURE(d.y);
         // The row of patches beside a pole has one row of texels at both sides, and half the height.
         const std::size_t y = d.y > 0 ? 0 : 7, patch_row = d.y > 0 ? 0 : 8;
-        const double x = 8 + 8 * std::atan2(d.x, -d.z) / pi, sine = std::hypot(d.x, d.z);
+        const double x = 8 + 8 * std::atan2(d.z, d.x) / pi, sine = std::hypot(d.x, d.z);
         const auto left = static_cast<std::size_t>(x + 15.5) % 16;
         const glm::dvec3 corners[2] = {glm::dvec3(e.pixels[16 * y + left]),
                                        glm::dvec3(e.pixels[16 * y + (left + 1) % 16])};

@@ -231,6 +231,7 @@ TEST_CASE("render: a state of something else, or a damaged one, is refused") {
     CHECK(differs([](Painter& other) { std::swap(other.options.width, other.options.height); }));
     CHECK(differs([](Painter& other) { other.around.radiance.b = 0.5f; }));
     CHECK(differs([](Painter& other) { other.around = {glm::vec3(0.0f), 1, 1, {glm::vec3(1.0f)}}; }));
+    CHECK(differs([](Painter& other) { other.around.rotation = 1.0f; }));
     CHECK(differs([](Painter& other) { other.camera.to_world[3].z = 0.25f; }));
     CHECK(differs([](Painter& other) { other.camera.vertical_fov = 1.1f; }));
     CHECK(differs([](Painter& other) { other.camera.perspective = false; }));
