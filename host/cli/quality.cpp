@@ -39,8 +39,9 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 1 + study_steps(kinds) + kinds);
     progress.step("reading " + arguments.scene.string());
     Input input = load_input(arguments.scene, arguments.common.quiet);
-    input.tree.reset();                               // of a .bxw file: only its scene is wanted
-    choose_camera(input, arguments.choice.rays.view); // an unknown name is found before the work
+    input.tree.reset(); // of a .bxw file: only its scene is wanted
+    choose_camera(input, arguments.choice.rays.view,
+                  arguments.choice.rays.resolution); // an unknown name is found before the work
     Device device = open_device(arguments.common);
     QualityStudy study = study_quality(device, input, arguments.choice, progress);
     LevelsComparison levels;
@@ -53,7 +54,7 @@ void run(const Arguments& arguments) {
     add_quality(study, levels, report);
     const RayChoice& rays = arguments.choice.rays;
     report["options"]["resolution"] = {rays.resolution.width, rays.resolution.height};
-    report["options"]["camera"] = choose_camera(input, rays.view).name;
+    report["options"]["camera"] = choose_camera(input, rays.view, rays.resolution).name;
     report["options"]["seed"] = rays.seed;
     save_report(arguments.report, report);
     progress.clear();

@@ -68,7 +68,7 @@ Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, cons
     if (choice.kind == "near") return near_rays(device, input.scene, choice);
     const Resolution& size = choice.resolution;
     Buffer<Ray> primary = make_buffer<Ray>(device, std::size_t{size.width} * size.height, "rays");
-    primary_rays(device, choose_camera(input, choice.view), size.width, size.height, primary);
+    primary_rays(device, choose_camera(input, choice.view, size), size.width, size.height, primary);
     if (choice.kind == "primary") return primary;
 
     const Geometry geometry = upload(device, input.scene);

@@ -259,7 +259,7 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 3 + options.light.samples);
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
-    const Camera camera = choose_camera(input, arguments.view);
+    const Camera camera = choose_camera(input, arguments.view, arguments.resolution);
     const std::optional<double> rotation = arguments.environment_rotation;
     Surroundings around;
     if (!arguments.environment.empty()) around = surroundings(arguments.environment, rotation);

@@ -88,7 +88,7 @@ void add_to_report(const Arguments& arguments, const Input& input, const Result&
     options["rays"] = arguments.rays.kind;
     options["resolution"] = {arguments.rays.resolution.width, arguments.rays.resolution.height};
     options["intersector"] = name(arguments.options.intersector);
-    options["camera"] = choose_camera(input, arguments.rays.view).name;
+    options["camera"] = choose_camera(input, arguments.rays.view, arguments.rays.resolution).name;
     if (arguments.rays.kind == "diffuse" || arguments.rays.kind == "near") options["seed"] = arguments.rays.seed;
     if (arguments.rays.kind == "shadow") {
         const glm::vec3 light = default_light(input.scene);
@@ -125,7 +125,7 @@ void run(const Arguments& arguments) {
     Progress progress(arguments.common.quiet, 4 + timed_runs);
     progress.step("reading " + arguments.input.string());
     const Input input = load_input(arguments.input, arguments.common.quiet);
-    choose_camera(input, arguments.rays.view); // an unknown name is found before the work
+    choose_camera(input, arguments.rays.view, arguments.rays.resolution); // an unknown name is found before the work
     progress.step("building");
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);

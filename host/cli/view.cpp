@@ -38,9 +38,10 @@ std::string camera_list(const std::vector<Camera>& cameras) {
     return cameras.size() > most ? list + " and " + std::to_string(cameras.size() - most) + " more" : list;
 }
 
-Camera stored_camera(const Input& input, const std::string& wanted) {
+Camera stored_camera(const Input& input, const std::string& wanted, const Resolution& size) {
     const std::vector<Camera>& cameras = input.scene.cameras;
-    if (wanted.empty()) return cameras.empty() ? default_camera(input.scene) : cameras.front();
+    const auto aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    if (wanted.empty()) return cameras.empty() ? default_camera(input.scene, aspect) : cameras.front();
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (cameras[i].name == wanted || std::to_string(i) == wanted) return cameras[i];
     throw InputError(input.file.string(), "cameras", "no camera \"" + wanted + "\"; " + camera_list(cameras));
@@ -78,8 +79,8 @@ void add_view(CLI::App& command, View& view) {
         ->type_name("DEGREES");
 }
 
-Camera choose_camera(const Input& input, const View& view) {
-    Camera camera = view.eye ? placed_camera(*view.eye, *view.target) : stored_camera(input, view.camera);
+Camera choose_camera(const Input& input, const View& view, const Resolution& resolution) {
+    Camera camera = view.eye ? placed_camera(*view.eye, *view.target) : stored_camera(input, view.camera, resolution);
     if (!view.field_of_view) return camera;
     const auto angle = static_cast<float>(*view.field_of_view / 180.0 * std::numbers::pi);
     if (!(angle > 0.0f && angle < std::numbers::pi_v<float>)) // rounded, as the camera has it

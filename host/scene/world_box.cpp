@@ -18,8 +18,6 @@ std::array<glm::dvec3, 8> DoubleBox::corners() const {
     return result;
 }
 
-namespace {
-
 std::vector<DoubleBox> mesh_boxes(const Scene& scene) {
     std::vector<DoubleBox> boxes(scene.meshes.size());
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -34,8 +32,6 @@ std::vector<DoubleBox> mesh_boxes(const Scene& scene) {
     }
     return boxes;
 }
-
-} // namespace
 
 std::vector<glm::dvec3> instance_corners(const Scene& scene) {
     const std::vector<DoubleBox> meshes = mesh_boxes(scene);

@@ -23,6 +23,9 @@ struct DoubleBox {
     std::array<glm::dvec3, 8> corners() const;
 };
 
+/// Of each mesh's positions, in object space. O(vertices).
+std::vector<DoubleBox> mesh_boxes(const Scene& scene);
+
 /// Corners of the boxes of a valid scene's meshes where each instance has them, eight for each. O(vertices + instances).
 std::vector<glm::dvec3> instance_corners(const Scene& scene);
 

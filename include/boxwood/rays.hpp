@@ -34,10 +34,11 @@ void diffuse_rays(Device& device, const Geometry& geometry, BufferView<const Ray
 void shadow_rays(Device& device, const Geometry& geometry, BufferView<const Ray> rays, BufferView<const Hit> hits,
                  const glm::vec3& light, BufferView<Ray> out);
 
-/// A perspective camera that sees all of a valid scene (see validate) from outside, looking along (-1, -0.6, -1.2); for scenes
-/// without one. It fits pictures that are at least as wide as high. An empty scene gives the view of a unit ball at the origin.
-/// O(vertices + instances).
-Camera default_camera(const Scene& scene);
+/// A perspective camera that sees all of a valid scene (see validate) from outside, for scenes without one: from the front, which in
+/// glTF is +z, and 15 degrees above, filling a picture of this ratio of width to height but for 5 % (of meshes that are shown more
+/// than once, with their boxes). An empty scene gives the view of a cube of 2 at the origin. O(vertices + instances). Throws InputError
+/// unless `aspect` is positive and finite.
+Camera default_camera(const Scene& scene, float aspect = 1.0f);
 
 /// A point for shadow rays: the middle of a valid scene's bounding box at 95 % of its height, which is under the ceiling of a
 /// room and over most of an object. The origin for an empty scene. O(vertices + instances).

@@ -206,25 +206,38 @@ TEST_CASE("camera: a sample lies inside its pixel's square, and a picture withou
     CHECK(std::isfinite(none.up[1]));
 }
 
-TEST_CASE("camera: the default camera sees all corners from outside") {
-    for (const float size : {0x1p-30f, 1.0f, 0x1p40f}) {
-        CAPTURE(size);
-        const Scene scene = box_scene(size, size * glm::vec3(4, -5, 6));
-        const Camera camera = default_camera(scene);
-        const glm::dmat4 to_camera = glm::inverse(glm::dmat4(camera.to_world));
-        const double tangent = std::tan(0.5 * double(camera.vertical_fov));
-        double fullest = 0.0;
-        for (const glm::vec3& position : scene.meshes[0].positions) {
-            const glm::dvec4 world = glm::dmat4(scene.instances[0].transform) * glm::dvec4(position, 1.0);
-            const glm::dvec4 local = to_camera * world;
-            REQUIRE(local.z < 0.0);
-            fullest = std::max({fullest, std::abs(local.x / local.z), std::abs(local.y / local.z)});
-        }
-        CHECK(fullest < tangent);
-        CHECK(fullest > 0.85 * tangent); // and fills the picture
-        const glm::dvec3 forward = -glm::dvec3(camera.to_world[2]);
-        CHECK(glm::length(forward - glm::normalize(glm::dvec3(-1, -0.6, -1.2))) < 4 * 0x1p-23);
-    }
+TEST_CASE("camera: the default camera sees everything from the front, and fills the picture") {
+    const glm::dvec3 wanted(0, -std::sin(glm::radians(15.0)), -std::cos(glm::radians(15.0)));
+    for (const float size : {0x1p-30f, 1.0f, 0x1p40f})
+        for (const float aspect : {1.0f, 16.0f / 9, 0.5f, 40.0f})
+            for (const bool twice : {false, true}) {
+                CAPTURE(size);
+                CAPTURE(aspect);
+                CAPTURE(twice);
+                Scene scene = box_scene(size, size * glm::vec3(4, -5, 6));
+                if (twice) scene.instances.push_back(scene.instances[0]);
+                const Camera camera = default_camera(scene, aspect);
+                const glm::dmat4 to_camera = glm::inverse(glm::dmat4(camera.to_world));
+                const double tangent = std::tan(0.5 * double(camera.vertical_fov));
+                glm::dvec2 low(1.0), high(-1.0);
+                for (const glm::vec3& position : scene.meshes[0].positions) {
+                    const glm::dvec4 world = glm::dmat4(scene.instances[0].transform) * glm::dvec4(position, 1.0);
+                    const glm::dvec4 local = to_camera * world;
+                    REQUIRE(local.z < 0.0);
+                    const glm::dvec2 at = glm::dvec2(local) / -local.z / glm::dvec2(tangent * aspect, tangent);
+                    low = glm::min(low, at);
+                    high = glm::max(high, at);
+                }
+                // From edge to edge along one axis, but for 5 %, and within along the other.
+                const int full = high.x - low.x > high.y - low.y ? 0 : 1;
+                CHECK(std::abs(high[full] - 1.0 / 1.05) < 1e-4);
+                CHECK(std::abs(low[full] + 1.0 / 1.05) < 1e-4);
+                CHECK(high[1 - full] < 1.0 / 1.05 + 1e-4);
+                CHECK(low[1 - full] > -1.0 / 1.05 - 1e-4);
+                CHECK(glm::length(-glm::dvec3(camera.to_world[2]) - wanted) < 4 * 0x1p-23);
+            }
+    for (const float aspect : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()})
+        CHECK_THROWS_AS(default_camera(Scene{}, aspect), InputError);
 }
 
 TEST_CASE("camera: an empty scene and a scene of one point have a view") {

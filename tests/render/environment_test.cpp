@@ -345,6 +345,21 @@ TEST_CASE("environment: what is black is none, and sizes must agree") {
     CHECK(upload_environment(test_device(), sky).kind == EnvironmentKind::picture);
 }
 
+TEST_CASE("environment: below the sky is ground that fades into the horizon") {
+    const Environment sky = default_sky();
+    const std::vector<glm::vec3> below = {{0, -1, 0},
+                                          glm::normalize(glm::vec3(0, -0.2f, -1)),
+                                          glm::normalize(glm::vec3(0, -0.02f, -1)),
+                                          glm::normalize(glm::vec3(0, 0.02f, -1))};
+    const std::vector<glm::dvec4> found = ask(sky, below, {}).lookups;
+    for (std::size_t i = 0; i + 1 < found.size(); ++i) CHECK(found[i + 1].y > found[i].y);
+    CHECK(found[0].x > found[0].z);                      // of soil, not of air
+    CHECK(std::abs(found[3].y / found[2].y - 1) < 0.25); // no edge
+    // The sun stands in front and to the right.
+    const std::vector<glm::dvec4> sun = ask(sky, {glm::normalize(glm::vec3(0.5f, 0.75f, 0.45f))}, {}).lookups;
+    CHECK(sun[0].x > 100.0);
+}
+
 TEST_CASE("environment: what is no radiance is refused, and its pixel named") {
     const auto refused = [](const Environment& e) {
         try {
