@@ -49,14 +49,15 @@ INLINE void find_beam(global const CameraRecord* camera, const PathSettings* set
 }
 
 #if ALPHA
-/// Paths that pass a surface because of its alpha go on behind it.
-INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_before, real t, Paths* paths, Rays* rays) {
+/// Paths that pass a surface because of its alpha go on behind it, each nearer to the end of its ray: they end, however many there are.
+INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_before, real t, real alpha, Paths* paths,
+                          Rays* rays) {
     choose3(passes, &before->throughput, &paths->throughput);
     paths->pdf = CHOOSE(passes, before->pdf, paths->pdf);
     paths->width = CHOOSE(passes, before->width, paths->width);
     paths->spread = CHOOSE(passes, before->spread, paths->spread);
     paths->bounces = CHOOSE(passes, before->bounces, paths->bounces);
-    paths->layers = CHOOSE(passes, before->layers + 1, before->layers);
+    paths->layers = CHOOSE(passes & (alpha > 0.0f), before->layers + 1, before->layers);
     choose3(passes, &rays_before->origin, &rays->origin);
     choose3(passes, &rays_before->direction, &rays->direction);
     rays->t_min = CHOOSE(passes, t, rays->t_min);
@@ -103,8 +104,8 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
         goes_on &= scatter_paths(&vertex, settings, &sampler, dimension, lobe_choice, width, paths, rays);
     }
 #if ALPHA
-    pass_surfaces(passes, &before, &rays_before, hits->t, paths, rays);
-    goes_on |= passes & (before.layers < BOXWOOD_MOST_LAYERS);
+    pass_surfaces(passes, &before, &rays_before, hits->t, vertex.point.alpha, paths, rays);
+    goes_on |= passes;
 #endif
     return goes_on;
 }
@@ -163,14 +164,14 @@ INLINE void load_paths(global const PathState* states, const uint* index, Paths*
     real row[8];
     load_rows8(states->throughput, 8, index, row);
     const whole counts = AS_WHOLE(row[5]);
-    const Paths p = {{row[0], row[1], row[2]}, row[3], row[6], row[7], AS_WHOLE(row[4]), counts & 0xffffu, counts >> 16};
+    const Paths p = {{row[0], row[1], row[2]}, row[3], row[6], row[7], AS_WHOLE(row[4]), counts & 0xffu, counts >> 8};
     *paths = p;
 }
 
 INLINE void store_paths(const Paths* paths, global PathState* states, const uint* index, uint count) {
     real row[8] = {paths->throughput.x,      paths->throughput.y,
                    paths->throughput.z,      paths->pdf,
-                   AS_REAL(paths->pixel),    AS_REAL(paths->bounces | paths->layers << 16),
+                   AS_REAL(paths->pixel),    AS_REAL(paths->bounces | paths->layers << 8),
                    paths->width,             paths->spread};
     store_rows8(row, states->throughput, 8, index, count);
 }

@@ -22,7 +22,7 @@
 #define SAMPLE_ENVIRONMENT (ENVIRONMENT && STRATEGY != 2)
 #define NEXT_EVENT (LIGHTS || SAMPLE_ENVIRONMENT)
 
-// Dimensions of the sampler: four for each bounce, and one for each surface with alpha.
+// Dimensions of the sampler: four for each bounce, and one for each surface that stops a part of the light.
 #define CHOICE_DIMENSION 0u // lobe, and what the choice of a light takes of the digits of its point
 #define LIGHT_DIMENSION 1u
 #define SCATTER_DIMENSION 2u

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Shadow rays through surfaces that let light pass: each hit takes its share, and the ray goes on behind it. Macros:
-// render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
+// render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
 //
+// LANES       1
 // GROUP_SIZE  work-items per work-group.
-// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0
-// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 WIDE_TEXELS=1
+// compile: MATERIALS=1 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 LANES=1
+// compile: MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 WIDE_TEXELS=1 LANES=1
 #include "render/path_sum.h"
+#include "render/random.h"
 #include "render/spot.h"
 #include "shared/ray.h"
 
-#ifndef GROUP_SIZE
-#error "define GROUP_SIZE"
+#if !defined(GROUP_SIZE) || LANES != 1
+#error "define GROUP_SIZE and LANES (1)"
 #endif
 
 /// The share of light that the surface at a hit lets pass; textures at their finest.
@@ -22,12 +24,18 @@ INLINE float passed_share(const SceneArrays* scene, Hit hit) {
     return 1.0f - stopped_share(material, color_at(scene, &spot).w);
 }
 
+/// All of the light or none, by chance: `share` of it on average.
+INLINE float share_by_chance(float share, ulong seed, uint pixel, uint sample, uint round, uint layer) {
+    const ulong key = random_bits(random_bits(random_key(seed, pixel), sample), round);
+    return (float)(random_bits(key, layer) >> 40) * 0x1p-24f < share ? 1.0f : 0.0f;
+}
+
 /// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of which
 /// there is at most one each, and those whose light passes their surface are moved to the front of their slice to go on behind
-/// it. A slice is `length` consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier: work-items share
-/// nothing.
+/// it. `layer` is how many surfaces they have passed, `round` what else tells rays of one sample of a pixel apart. A slice is `length`
+/// consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows(
-    SCENE_PARAMETERS, global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
+    SCENE_PARAMETERS, ulong seed, uint sample, uint first_pixel, uint round, uint layer, global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
     global ShadowLight* lights, global uint* kept, global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
@@ -42,7 +50,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows
             add_shadow_light(lights + i, direct, indirect);
             continue;
         }
-        const float passed = passed_share(&scene, hit);
+        float passed = passed_share(&scene, hit);
+        if (layer >= BOXWOOD_SURE_LAYERS)
+            passed = share_by_chance(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
         if (!(passed > 0.0f)) continue;
         vstore3(vload3(0, light.value) * passed, 0, light.value);
         Ray ray = rays[i];

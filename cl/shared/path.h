@@ -10,7 +10,7 @@ typedef struct PathState {
     float throughput[3]; ///< What a unit of radiance along the ray adds to the pixel.
     float pdf;           ///< Density, by solid angle, with which the surface drew the ray's direction.
     uint pixel;          ///< Index within the batch.
-    uint counts;         ///< Bounces so far; from bit 16 on, surfaces passed because of their alpha.
+    uint counts;         ///< Bounces so far, at most 64; from bit 8 on, modulo 2^24, surfaces passed that stop a part of the light.
     float width;         ///< Of the beam at the ray's origin,
     float spread;        ///< and what it grows by per distance.
 } PathState;
@@ -26,8 +26,8 @@ BOXWOOD_SHARED_SIZE(ShadowLight, 16)
 // Set in ShadowLight::pixel for light that is reflected more than once.
 #define BOXWOOD_INDIRECT 0x80000000u
 
-// Surfaces that a path, or a shadow ray, passes because of their alpha; at the next one it ends without light.
-#define BOXWOOD_MOST_LAYERS 64u
+// After so many surfaces that let light pass, a shadow ray passes more by chance: as bright on average, but never long dim.
+#define BOXWOOD_SURE_LAYERS 64u
 
 BOXWOOD_SHARED_END
 #endif

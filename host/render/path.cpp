@@ -52,6 +52,7 @@ struct Programs {
         next_event = lights || (towards && world.environment.kind != EnvironmentKind::none);
         Defines defines = scene_defines(device, world.geometry, needs, options.filter);
         alpha = {"render/path_alpha.cl", "pass_shadows", defines};
+        alpha.defines["LANES"] = "1";
         defines["ALPHA"] = flag(needs.alpha);
         defines["SPECULAR"] = flag(needs.specular);
         defines["EMISSION"] = flag(needs.emission);
@@ -84,9 +85,9 @@ public:
 
     void run() {
         std::size_t count = primary_.rays.size();
-        for (bool first = true; count > 0; first = false) {
-            shade(count, first);
-            if (programs_.next_event) add_shadows(count);
+        for (std::uint32_t round = 0; count > 0; ++round) {
+            shade(count, round == 0);
+            if (programs_.next_event) add_shadows(count, round);
             count = close_gaps(paths_, moved_, count);
             if (count == 0) return;
             const Stage stage(device_, "trace");
@@ -113,8 +114,8 @@ private:
             paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct, light_.indirect);
     }
 
-    void add_shadows(std::size_t count) {
-        if (world_.appearance.requirements.alpha) return add_shadows_through(count);
+    void add_shadows(std::size_t count, std::uint32_t round) {
+        if (world_.appearance.requirements.alpha) return add_shadows_through(count, round);
         {
             const Stage stage(device_, "shadow");
             any_hit(device_, world_.tree, shadows_.rays.prefix(count), blocked_.prefix(count), options_.trace);
@@ -126,10 +127,10 @@ private:
                light_.direct, light_.indirect);
     }
 
-    /// Surface by surface, with the paths' own slices set aside.
-    void add_shadows_through(std::size_t count) {
+    /// Surface by surface, with the paths' own slices set aside. It ends: rays pass each surface once.
+    void add_shadows_through(std::size_t count, std::uint32_t round) {
         Fronts of_paths = std::exchange(fronts_, Fronts(device_, count));
-        for (std::uint32_t layer = 0; count > 0 && layer <= BOXWOOD_MOST_LAYERS; ++layer) {
+        for (std::uint32_t layer = 0; count > 0; ++layer) {
             {
                 const Stage stage(device_, "shadow");
                 closest_hit(device_, world_.tree, shadows_.rays.prefix(count), shadow_hits_.prefix(count),
@@ -139,9 +140,10 @@ private:
                 const Stage stage(device_, "accumulate");
                 fronts_.slices = cut(device_, count);
                 launch_shading(device_, programs_.alpha, "pass shadows", fronts_.slices.slices, world_.geometry,
-                               world_.appearance, shadow_hits_, static_cast<std::uint32_t>(count),
-                               fronts_.slices.length, fronts_.slices.slices, shadows_.rays, shadows_.records,
-                               fronts_.kept, light_.direct, light_.indirect);
+                               world_.appearance, options_.seed, sample_, primary_.first_pixel, round, layer,
+                               shadow_hits_, static_cast<std::uint32_t>(count), fronts_.slices.length,
+                               fronts_.slices.slices, shadows_.rays, shadows_.records, fronts_.kept, light_.direct,
+                               light_.indirect);
             }
             count = close_gaps(shadows_, moved_shadows_, count);
         }

@@ -34,8 +34,8 @@ struct PrimaryHits {
 };
 
 /// Sample number `sample` (of options.samples) of the pixels of `primary`: one path each, its own camera ray given. What it is
-/// depends on (options, camera, pixel, sample) alone. Of `options`, integrator and primary are not read. A path passes at most
-/// BOXWOOD_MOST_LAYERS surfaces with alpha. Stages in the profile: shade, shadow, compact, trace. Throws InputError for arrays of
+/// depends on (options, camera, pixel, sample) alone. Of `options`, integrator and primary are not read. Surfaces with alpha,
+/// any number of them, cost no bounce; of those at the very same distance, the first by instance and triangle stands for all. Stages in the profile: shade, shadow, compact, trace. Throws InputError for arrays of
 /// different sizes, and CapacityError, before any work, for 2^30 pixels or more or when the queues do not fit.
 void trace_paths(Device& device, const World& world, const LightOptions& options, std::uint32_t sample,
                  const PrimaryHits& primary, SampleLight light);

@@ -282,6 +282,73 @@ TEST_CASE("path: shadows behind what lets light pass") {
     }
 }
 
+namespace {
+
+/// A floor under a point light, and over it `layers` that a camera at y = `height` is above or below.
+Scene layered_scene(std::uint32_t layers, const Material& material) {
+    Scene scene;
+    add_floor(scene, matt({0.5f, 0.5f, 0.5f}));
+    scene.lights = {punctual(LightKind::point)};
+    add_quad(scene, {-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, material);
+    scene.instances.back().transform[3].y = 8.0f; // none of the layers, but what needs the same programs
+    for (std::uint32_t i = 0; i < layers; ++i) {
+        scene.instances.push_back(scene.instances.back());
+        scene.instances.back().transform[3].y = 0.6f + 0.5f * float(i) / float(layers);
+    }
+    return scene;
+}
+
+Material veil(AlphaMode mode, float alpha) {
+    Material material = matt(glm::vec3(0.0f));
+    material.alpha_mode = mode;
+    material.base_color.w = alpha;
+    return material;
+}
+
+} // namespace
+
+TEST_CASE("path: layers without an alpha change nothing, however many") {
+    for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::mask})
+        for (const float height : {0.5f, 2.0f}) { // under all layers, and over them
+            const Material material = veil(mode, mode == AlphaMode::mask ? 0.3f : 0.0f);
+            const auto picture = [&](std::uint32_t layers) {
+                const LitScene lit(test_device(), layered_scene(layers, material));
+                LightOptions options;
+                options.samples = 2;
+                options.depth = 2;
+                return take_picture(test_device(), lit, camera_above(0.3f, height), {2, 2}, options).direct;
+            };
+            const std::vector<double> open = picture(0);
+            CHECK(open[0] > 0.0);
+            for (const std::uint32_t layers : {64u, 65u, 200u, 1000u}) {
+                if (small_sizes() && layers > 65) continue;
+                CAPTURE(layers);
+                CHECK(picture(layers) == open);
+            }
+        }
+}
+
+TEST_CASE("path: many layers that stop a part each let through, on average, what all leave") {
+    const std::uint32_t layers = small_sizes() ? 70 : 150;
+    const double share = std::pow(0.98, layers);
+    for (const float height : {0.5f, 2.0f}) {
+        const LitScene lit(test_device(), layered_scene(layers, veil(AlphaMode::blend, 0.02f)));
+        const LitScene open(test_device(), layered_scene(0, veil(AlphaMode::blend, 0.02f)));
+        LightOptions options;
+        options.depth = 1;
+        options.seed = test_seed();
+        options.samples = 1;
+        const Camera camera = camera_above(0.3f, height);
+        const double all = estimate(test_device(), open, camera, {across(16), across(16)}, options, 2).mean;
+        options.samples = small_sizes() ? 4 : 64;
+        const Estimate found = estimate(test_device(), lit, camera, {across(16), across(16)}, options, 8);
+        // Seen from above through them, of what light comes through them.
+        const double expected = all * share * (height > 1.0f ? share : 1.0);
+        CHECK(std::abs(found.mean - expected) < found.margin());
+        if (!small_sizes()) CHECK(found.error < 0.1 * expected);
+    }
+}
+
 TEST_CASE("path: seen through what lets light pass") {
     // A lamp of 2 behind two unlit layers of radiance 1 that stop a half each: 0.5 + 0.25 + 2 * 0.25, at any depth.
     Scene scene;
