@@ -47,7 +47,7 @@ INLINE void ambient_light(global const float* coefficients, const Vector* n, Vec
     *light = positive;
 }
 
-/// Rays from vertices by the cosine. Below the surface, where a bent normal may send them, they are mirrored.
+/// Rays from vertices by the cosine. Into the surface, where a bent normal may send them, they are mirrored.
 INLINE void cosine_rays(const Vertex* vertex, const Sampler* sampler, uint dimension, Rays* rays) {
     real u, v;
     Vector wi, direction;
@@ -56,7 +56,8 @@ INLINE void cosine_rays(const Vertex* vertex, const Sampler* sampler, uint dimen
     out_of_frame(vertex, &wi, &direction);
     normalise3(&direction);
     const Vector* normal = &vertex->point.surface.normal;
-    add_scaled3(-2.0f * smaller(dot3(&direction, normal), (real)(0.0f)), normal, &direction);
+    const real mirrored = -2.0f * dot3(&direction, normal);
+    add_scaled3(CHOOSE(leads_away(vertex, &direction), (real)(0.0f), mirrored), normal, &direction);
     const Rays r = {vertex->origin, direction, (real)(0.0f), (real)(INFINITY)};
     *rays = r;
 }
@@ -96,7 +97,7 @@ INLINE mask find_light(const LightArrays* lights, const Vertex* vertex, real cho
     *rays = shadow;
     *light = sample.value;
     scale3(cosine * M_1_PI_F, light);
-    return (cosine > 0.0f) & (dot3(&sample.direction, &vertex->point.surface.normal) > 0.0f) & usable(&sample.value);
+    return (cosine > 0.0f) & leads_away(vertex, &sample.direction) & usable(&sample.value);
 }
 #endif
 

@@ -26,12 +26,16 @@ typedef struct Gathered {
     mask has_shadow;
 } Gathered;
 
-/// The beams where they meet the surfaces; `width` is that of the path's cone.
+// Spread of a cone, for one sample per pixel, up to which what it meets is seen as in a mirror: of roughness 0.13.
+#define MIRROR_SPREAD 0x1p-4f
+
+/// The beams where they meet the surfaces; `width` is that of the path's cone there, `spread` what it grows by per distance.
 INLINE void find_beam(global const CameraRecord* camera, const PathSettings* settings, const Vector* direction, real t,
-                      mask first, real width, Beam* beam) {
+                      mask first, real width, real spread, Beam* beam) {
 #if TEXTURES
     cone_beam(direction, width, beam);
     beam->exact_light = NOT(first);
+    beam->sharp = first | (spread * sqrt((float)settings->samples) <= MIRROR_SPREAD);
     if (!ANY(first)) return;
     Beam of_pixel;
     pixel_beam(camera, direction, t, 1.0f / sqrt((float)settings->samples), &of_pixel);
@@ -44,6 +48,7 @@ INLINE void find_beam(global const CameraRecord* camera, const PathSettings* set
     (void)t;
     (void)first;
     (void)width;
+    (void)spread;
     (void)beam;
 #endif
 }
@@ -75,7 +80,7 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
     const real width = fma(paths->spread, hits->t, paths->width);
     Beam beam;
     Vertex vertex;
-    find_beam(camera, settings, &direction, hits->t, first, width, &beam);
+    find_beam(camera, settings, &direction, hits->t, first, width, paths->spread, &beam);
     find_shading_point(&world->scene, &direction, hits, &beam, &vertex.point);
 #if ALPHA
     const Paths before = *paths;

@@ -159,7 +159,7 @@ INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, rea
 #if SAMPLE_ENVIRONMENT
     const mask distant = (u < shares.environment) | (mask)(LIGHTS ? 0 : -1);
     LightSample sky;
-    sample_environment(&world->environment, &vertex->point.surface.normal, smaller(u / shares.environment, (real)(BEFORE_ONE)), v,
+    sample_environment(&world->environment, &vertex->point.normal, smaller(u / shares.environment, (real)(BEFORE_ONE)), v,
                        &sky.direction, &sky.value, &sky.pdf);
     sky.pdf *= shares.environment;
     scale3(1.0f / sky.pdf, &sky.value);
@@ -186,7 +186,7 @@ INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, rea
 #endif
     const Rays shadow = {vertex->origin, sample.segment, (real)(0.0f), sample.t_max};
     *rays = shadow;
-    const mask above = dot3(&sample.direction, &vertex->point.surface.normal) > 0.0f;
+    const mask above = leads_away(vertex, &sample.direction);
 #if STRATEGY == 2
     return above & NOT(sample.pdf > 0.0f) & usable(light) & bright(light);
 #else
@@ -208,7 +208,7 @@ INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, co
     scale3(1.0f / pdf, &value);
     multiply3(&paths->throughput, &value, &paths->throughput);
     const real largest = larger(larger(paths->throughput.x, paths->throughput.y), paths->throughput.z);
-    mask goes_on = (pdf > 0.0f) & (dot3(&direction, &vertex->point.surface.normal) > 0.0f) & (largest > 0.0f) &
+    mask goes_on = (pdf > 0.0f) & leads_away(vertex, &direction) & (largest > 0.0f) &
                    usable(&paths->throughput);
     paths->bounces += 1;
     const mask at_risk = goes_on & (paths->bounces >= ROULETTE_BOUNCE) & (largest < 1.0f);

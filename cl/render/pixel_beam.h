@@ -17,6 +17,7 @@ INLINE void pixel_beam(global const CameraRecord* camera, const Vector* directio
     scale3(width, &beam->x);
     scale3(width, &beam->y);
     beam->exact_light = (mask)(0);
+    beam->sharp = (mask)(-1);
 }
 
 #endif

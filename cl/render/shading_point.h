@@ -10,6 +10,10 @@
 typedef struct ShadingPoint {
     Surface surface;
     Vector normal;     ///< For shading: normalised, on the side that the ray came from, never turned away from it.
+#if NORMALS
+    Vector smooth; ///< That of the vertices alone, on the same side; of another length.
+    Vector lift;   ///< From the triangle to the smooth surface that it stands for; see smooth_lift.
+#endif
     Vector base_color; ///< [0, 1]
     Vector emission;   ///< Radiance towards the ray's origin.
     real alpha;        ///< Share of the light that the surface stops: 0 or 1 unless it blends.
@@ -27,6 +31,9 @@ typedef struct Beam {
     /// Emission and alpha are read as under a beam without width: lights and shadow rays read them so, and what both find must be
     /// the same. (Cut-outs have another size when they are filtered.)
     mask exact_light;
+    /// Textures are filtered along both axes, if the filter is: for what is seen as a picture, by the camera or in a mirror. Other
+    /// beams are wide anyway, and averaged.
+    mask sharp;
 } Beam;
 
 INLINE void material_numbers(const SceneArrays* scene, const Triangles* triangles, uint* material) {
@@ -91,8 +98,9 @@ INLINE void find_spots(const Triangles* triangles, const uint* material, const V
     (void)beam;
 #endif
 #if TEXTURES
-    int exact_light[LANES];
+    int exact_light[LANES], sharp[LANES];
     STORE_LANES(beam->exact_light, exact_light);
+    STORE_LANES(beam->sharp, sharp);
 #endif
     for (uint lane = 0; lane < LANES; ++lane) {
         spots[lane].corner = (uint3)(triangles->corner[0][lane], triangles->corner[1][lane], triangles->corner[2][lane]);
@@ -104,6 +112,7 @@ INLINE void find_spots(const Triangles* triangles, const uint* material, const V
 #endif
 #if TEXTURES
         spots[lane].exact_light = exact_light[lane] != 0;
+        spots[lane].sharp = sharp[lane] != 0;
 #endif
     }
 }
@@ -120,6 +129,49 @@ INLINE void interpolate_direction(const SceneArrays* scene, const Triangles* tri
     add_scaled3(hits->u, &second, direction);
     add_scaled3(hits->v, &third, direction);
     normalise_any3(direction);
+}
+
+/// The normals that vertices say: `object` in object space, of the triangles where they say none; `world` in world space, of
+/// another length. Returns 1, or -1 where that is not on the ray's side.
+INLINE real vertex_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, const Surface* surface,
+                          Vector* object, Vector* world) {
+    Vector flat;
+    interpolate_direction(scene, triangles, hits, NORMAL_AT, object);
+    object_normal(triangles, &flat);
+    normalise_any3(&flat);
+    choose3(NOT(largest3(object) > 0.0f), &flat, object);
+    normal_to_world(triangles, object, world);
+    return CHOOSE(dot3(world, &surface->normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
+}
+
+// Cosine of the angle between a triangle and the normals of its vertices from which on these are no smooth surface's, but an edge's
+// or made to shade foliage.
+#define LEAST_SMOOTH 0x1.6a09e6p-1f
+
+/// From the points of triangles to the smooth surface that their vertices' normals stand for, in world space: rays that start there
+/// see the light that those normals promise, where the triangle itself is turned away from it (Hanika 2021, "Hacking the Shadow
+/// Terminator"). A point is moved onto the tangent planes of the vertices that it is below, by their weights; planes stay planes,
+/// so that the space does not matter. `side` as from vertex_normal. Zero where the surface is hollow.
+INLINE void smooth_lift(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, real side, Vector* lift) {
+    const real zero = 0.0f;
+    const real weight[3] = {1.0f - hits->u - hits->v, hits->u, hits->v};
+    Vector flat, sum = {zero, zero, zero};
+    object_normal(triangles, &flat);
+    normalise_any3(&flat);
+    real least = 1.0f, greatest = -1.0f;
+    for (uint k = 0; k < 3; ++k) {
+        Vector normal, from = {zero, zero, zero};
+        load_vectors(scene->attributes + NORMAL_AT, VERTEX_FLOATS, triangles->corner[k], &normal);
+        add_scaled3(weight[1] - (k == 1 ? 1.0f : 0.0f), &triangles->edge1, &from);
+        add_scaled3(weight[2] - (k == 2 ? 1.0f : 0.0f), &triangles->edge2, &from);
+        add_scaled3(-weight[k] * side * smaller(side * dot3(&from, &normal), zero), &normal, &sum);
+        const real cosine = dot3(&normal, &flat);
+        least = smaller(least, cosine);
+        greatest = larger(greatest, cosine);
+    }
+    const Vector none = {zero, zero, zero};
+    choose3(NOT((least > LEAST_SMOOTH) | (greatest < -LEAST_SMOOTH)), &none, &sum);
+    vector_to_world(triangles, &sum, lift);
 }
 #endif
 
@@ -164,15 +216,9 @@ INLINE void shading_normal(const SceneArrays* scene, const Triangles* triangles,
                            const Surface* surface, const Vector* view, Vector* normal) {
     *normal = surface->normal;
 #if NORMALS
-    Vector object, flat, bent;
-    interpolate_direction(scene, triangles, hits, NORMAL_AT, &object);
-    // Vertices without normals leave that of the triangle.
-    object_normal(triangles, &flat);
-    normalise_any3(&flat);
-    choose3(NOT(largest3(&object) > 0.0f), &flat, &object);
-    normal_to_world(triangles, &object, &bent);
+    Vector object, bent;
     // By the surface itself: a normal texture may bend the normal past the triangle's plane.
-    const real side = CHOOSE(dot3(&bent, &surface->normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
+    const real side = vertex_normal(scene, triangles, hits, surface, &object, &bent);
 #if TANGENTS
     bend_normal(scene, triangles, hits, spots, &object, &bent);
 #endif
@@ -291,6 +337,12 @@ INLINE void find_shading_point(const SceneArrays* scene, const Vector* direction
 #endif
     find_surface(&triangles, direction, hits, &point->surface);
     shading_normal(scene, &triangles, hits, spots, &point->surface, direction, &point->normal);
+#if NORMALS
+    Vector object;
+    const real side = vertex_normal(scene, &triangles, hits, &point->surface, &object, &point->smooth);
+    scale3(side, &point->smooth);
+    smooth_lift(scene, &triangles, hits, side, &point->lift);
+#endif
     const whole flags = load_material(scene, material, point);
     find_color(scene, spots, material, flags, point);
 #if TEXTURES

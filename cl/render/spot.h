@@ -18,7 +18,7 @@ typedef struct Spot {
     float2 weight_x, weight_y;
 #endif
 #if TEXTURES
-    bool exact_light; ///< See Beam.
+    bool exact_light, sharp; ///< See Beam.
 #endif
 } Spot;
 
@@ -36,7 +36,7 @@ INLINE void spot_of(const SceneArrays* scene, uint instance, uint primitive, flo
     spot->weight_x = spot->weight_y = (float2)(0.0f);
 #endif
 #if TEXTURES
-    spot->exact_light = true;
+    spot->exact_light = spot->sharp = true;
 #endif
 }
 
@@ -64,7 +64,7 @@ INLINE float4 texture_at(const SceneArrays* scene, const Spot* spot, global cons
     return sample_texture(scene->textures + input->texture, scene->texels,
                           (float2)(dot_float2(u, uv) + rows[2], dot_float2(v, uv) + rows[5]),
                           (float2)(dot_float2(u, along_x), dot_float2(v, along_x)),
-                          (float2)(dot_float2(u, along_y), dot_float2(v, along_y)));
+                          (float2)(dot_float2(u, along_y), dot_float2(v, along_y)), spot->sharp);
 }
 #endif
 

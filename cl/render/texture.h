@@ -4,7 +4,7 @@
 // WIDE_TEXELS  1 where some texture has 16 bits
 // FILTER  0 nearest texel, without levels of detail; 1 trilinear: the level whose texels are as wide as the footprint's longer
 //         axis, as for the cone of Akenine-Moller et al. 2019; 2 anisotropic: up to 16 trilinear taps along that axis, of the
-//         level for the shorter one (after McCormack et al. 1999)
+//         level for the shorter one (after McCormack et al. 1999); as 1 where it need not be sharp
 #ifndef BOXWOOD_RENDER_TEXTURE_H
 #define BOXWOOD_RENDER_TEXTURE_H
 #include "render/elementary.h"
@@ -182,12 +182,13 @@ inline void find_footprint(global const TextureRecord* texture, float2 along_x, 
 #endif
 
 /// Linear colour and alpha at `uv`, over the parallelogram that `along_x` and `along_y`, the differences of uv across the beam,
-/// span. Any floats: coordinates that float cannot place within the picture read some texel of it.
+/// span; without `sharp` over a wider one. Any floats: coordinates that float cannot place within the picture read some texel of it.
 inline float4 sample_texture(global const TextureRecord* texture, global const uint* texels, float2 uv, float2 along_x,
-                             float2 along_y) {
+                             float2 along_y, bool sharp) {
 #if FILTER == 0
     (void)along_x;
     (void)along_y;
+    (void)sharp;
     Level level;
     find_level(texture, texels, 0, &level);
     return nearest_texel(&level, wrap_coordinates(texture, uv));
@@ -201,9 +202,14 @@ inline float4 sample_texture(global const TextureRecord* texture, global const u
     }
     Levels levels;
 #if FILTER == 1
+    (void)sharp;
     find_levels(texture, texels, footprint.longer, &levels);
     return trilinear(texture, &levels, uv);
 #else
+    if (!sharp) {
+        find_levels(texture, texels, footprint.longer, &levels);
+        return trilinear(texture, &levels, uv);
+    }
     // As many taps as the shorter axis, or a texel, goes into the longer one.
     const float width = fmax(fmax(footprint.shorter, 1.0f), footprint.longer / MOST_TAPS);
     const int taps = clamp((int)ceil(footprint.longer / width), 1, MOST_TAPS);

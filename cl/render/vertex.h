@@ -28,12 +28,12 @@ INLINE void out_of_frame(const Vertex* vertex, const Vector* v, Vector* result) 
     *result = r;
 }
 
-/// The beam of a cone of `width`.
+/// The beam of a cone of `width`, not sharp.
 INLINE void cone_beam(const Vector* direction, real width, Beam* beam) {
     tangents_of(direction, &beam->x, &beam->y);
     scale3(width, &beam->x);
     scale3(width, &beam->y);
-    beam->exact_light = (mask)(0);
+    beam->exact_light = beam->sharp = (mask)(0);
 }
 
 /// From `point` and the rays' `direction`, which is normalised.
@@ -41,10 +41,23 @@ INLINE void make_vertex(const Vector* direction, Vertex* vertex) {
     const ShadingPoint* point = &vertex->point;
     tangents_of(&point->normal, &vertex->tangent, &vertex->bitangent);
     surface_origin(&point->surface, &vertex->origin);
+#if NORMALS
+    add3(&vertex->origin, &point->lift, &vertex->origin);
+#endif
     Vector back = *direction;
     scale3((real)(-1.0f), &back);
     into_frame(vertex, &back, &vertex->wo);
     make_bsdf(&point->base_color, point->metallic, point->roughness, point->specular, &vertex->wo, &vertex->bsdf);
+}
+
+/// Whether directions lead away from surfaces: from triangles, or, where these stand for a smooth surface above, from that.
+INLINE mask leads_away(const Vertex* vertex, const Vector* direction) {
+    mask away = dot3(direction, &vertex->point.surface.normal) > 0.0f;
+#if NORMALS
+    const mask lifted = largest3(&vertex->point.lift) > 0.0f, above = dot3(direction, &vertex->point.smooth) > 0.0f;
+    away |= lifted & above;
+#endif
+    return away;
 }
 
 /// Whether triangles have an area, and so a normal.

@@ -107,7 +107,8 @@ void add_light_options(CLI::App& command, LightChoice& choice) {
               "Diffuse directions by cosine (default) or uniform");
     add_intersector(command, options.trace);
     add_words(command, "--filter", options.filter, to_filter,
-              "Texture filter: anisotropic (default), trilinear or nearest");
+              "Texture filter: anisotropic (default; for what the camera sees, itself or in mirrors), trilinear or "
+              "nearest");
 }
 
 namespace {

@@ -335,7 +335,8 @@ void add_picture_options(CLI::App& app, Arguments& arguments) {
     std::vector<std::string> names = {"all"};
     for (const Aov aov : all_aovs()) names.emplace_back(name(aov));
     app.add_option("--aov", arguments.aovs,
-                   "Channels beside R, G and B, separated by commas, or all of the integrator's")
+                   "Channels beside R, G and B, separated by commas, or all of the integrator's; variance is that of "
+                   "independent samples (--sampler random), more than that of the others")
         ->delimiter(',')
         ->check(CLI::IsMember(names));
 }

@@ -23,7 +23,9 @@ namespace boxwood {
 ///   What is emitted or reflected once, and what is reflected more often. Integrators path, direct and ambient.
 /// - ambient: "ambient.R/.G/.B": what the ambient light adds. Integrator::ambient only.
 /// - ao: "ao.A", share of the ambient light that is not occluded, 1 where nothing is met. Integrators ambient and ao.
-/// - variance: "variance.Y", variance of the mean of the samples' luminance; infinity for fewer than two samples.
+/// - variance: "variance.Y", variance that the mean of the samples' luminance would have if they were independent; infinity for fewer
+///   than two samples. It is the true one for SamplerKind::random; sobol and stratified samples are spread more evenly, and their mean
+///   has less (some half of it under a lamp at 16 samples).
 /// - samples: "samples.N", samples that entered the mean.
 /// The second is of one ray through the centre of each pixel, up to the first surface, whatever its alpha:
 /// - depth: "depth.Z", distance from the ray's origin along the ray; infinity where it meets nothing.

@@ -31,7 +31,8 @@ enum class Strategy { mis, lights, bsdf };
 /// How the diffuse lobe is sampled.
 enum class Hemisphere { cosine, uniform };
 
-/// Texture filters: along the beam's two axes, by the wider of them in three dimensions, or the nearest texel.
+/// Texture filters: along the beam's two axes for what the camera sees, itself or in mirrors, and as the next one beyond; by the
+/// wider of them in three dimensions; or the nearest texel.
 enum class TextureFilter { anisotropic, trilinear, nearest };
 
 /// The words used in options, reports and on the command line: "path", "raster", "sobol", ... to_... throw InputError listing them.

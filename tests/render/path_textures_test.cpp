@@ -97,6 +97,42 @@ TEST_CASE("path: a lamp that is finely cut out shines with half its light, howev
     check_halves(scene, 1.5, 1.5);
 }
 
+TEST_CASE("path: both axes of a beam count for what is seen as a picture, by the camera or in a mirror") {
+    // A fine pattern on a ceiling that the camera sees at a slant, itself or by way of the floor.
+    const PictureSize size{64, 64};
+    Material patterned = lamp(glm::vec3(1.0f));
+    patterned.emission = glm::vec3(0.0f);
+    patterned.base_color = glm::vec4(1.0f);
+    patterned.unlit = true;
+    patterned.base_color_texture.texture = 0;
+    patterned.base_color_texture.transform = glm::mat3(8, 0, 0, 0, 8, 0, 0, 0, 1);
+    const auto picture = [&](const Material& floor, const glm::vec3& target, TextureFilter filter) {
+        Scene scene;
+        add_floor(scene, floor);
+        add_quad(scene, {-4, 1, -4}, {8, 0, 0}, {0, 0, 8}, patterned); // faces down
+        scene.meshes.back().uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        scene.images = {image("noise", size, noise(size, 5))};
+        scene.textures = {{0, Wrap::repeat, Wrap::repeat, true}};
+        const LitScene lit(test_device(), scene);
+        LightOptions options;
+        options.filter = filter;
+        options.samples = 2;
+        options.depth = 1;
+        const Camera camera{"slant", look_at({0, 0.5f, 3}, target), true, 0.2f};
+        return take_picture(test_device(), lit, camera, {12, 12}, options);
+    };
+    const glm::vec3 to_floor(0, 0, 1), to_ceiling(0, 1, 1);
+    const auto differ = [&](const Material& floor, const glm::vec3& target) {
+        const auto both = picture(floor, target, TextureFilter::anisotropic);
+        const auto wider = picture(floor, target, TextureFilter::trilinear);
+        return both.direct != wider.direct;
+    };
+    CHECK(differ(matt(glm::vec3(0.5f)), to_ceiling));
+    CHECK(differ(metal(glm::vec3(0.9f), 0.02f), to_floor));
+    CHECK_FALSE(differ(matt(glm::vec3(0.5f)), to_floor));
+    CHECK_FALSE(differ(metal(glm::vec3(0.9f), 0.5f), to_floor));
+}
+
 TEST_CASE("path: the shadow of a fence that is cut out of a texture, texel by texel") {
     // 8 x 8 times a checkerboard of 2 x 2, between the floor and a point light.
     Material fence = matt(glm::vec3(0.5f));
