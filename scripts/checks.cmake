@@ -16,5 +16,6 @@ boxwood_check(oclgrind COMMAND ${scripts}/check_oclgrind.sh ${PROJECT_BINARY_DIR
 boxwood_check(sanitizers COMMAND ${scripts}/check_sanitizers.sh TIMEOUT 1800 PROCESSORS 2)
 boxwood_check(gpu-profile COMMAND ${CMAKE_COMMAND} -E env BOXWOOD_SMALL=1 ${PROJECT_BINARY_DIR}/boxwood-tests
   --tuning=64,2048,4,1 --test-suite=runtime,primitives,bounds,hierarchy,traverse --no-intro TIMEOUT 900 PROCESSORS 1)
+boxwood_check(drivers COMMAND ${scripts}/check_drivers.sh ${PROJECT_BINARY_DIR} TIMEOUT 900 PROCESSORS 2)
 boxwood_check(watertight COMMAND ${PROJECT_BINARY_DIR}/boxwood-benchmark-watertight --rays 1e7 TIMEOUT 1200 PROCESSORS 2)
 boxwood_check(fuzz COMMAND ${scripts}/check_fuzz.sh 60 TIMEOUT 600 PROCESSORS 2)
