@@ -114,7 +114,7 @@ private:
         const int skin = model_.nodes[form.node].skin;
         if (skin < 0) return pose;
         if (globals_.empty()) globals_ = global_transforms(document_);
-        pose.joints = joint_matrices(document_, skin, element("nodes", form.node), globals_);
+        pose.joints = joint_matrices(document_, skin, element("nodes", form.node), globals_, warnings_);
         return pose;
     }
 

@@ -44,8 +44,8 @@ std::vector<bool> pose_vertices(const GltfDocument& document, const tinygltf::Pr
 
 /// From the mesh's to world space for each joint of skins[index]: the joint's global transform times its inverse bind matrix,
 /// in double. `globals` are those of all nodes. Throws InputError for a skin or a joint that does not exist, for a skin without
-/// joints, for fewer matrices than joints, and for a matrix that is not affine. O(joints).
+/// joints, and for fewer matrices than joints. The last row of a matrix counts as 0 0 0 1, with a warning where it is another. O(joints).
 std::vector<glm::dmat4> joint_matrices(const GltfDocument& document, int index, const std::string& node,
-                                       const std::vector<glm::dmat4>& globals);
+                                       const std::vector<glm::dmat4>& globals, Warnings& warnings);
 
 } // namespace boxwood
