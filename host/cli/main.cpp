@@ -4,8 +4,8 @@
 #include <new>
 
 #include "cli/command.hpp"
-#include "runtime/excerpt.hpp"
 #include "cli/standard_output.hpp"
+#include "runtime/excerpt.hpp"
 
 namespace boxwood::cli {
 

@@ -9,6 +9,7 @@
 #include "boxwood/error.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_attributes.hpp"
+#include "runtime/memory_limit.hpp"
 
 namespace boxwood {
 
@@ -108,7 +109,8 @@ private:
 } // namespace
 
 std::uint64_t host_memory() {
-    return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
+    return std::min(pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)), memory_limit());
 }
 
 void check_size(const GltfDocument& document, const std::vector<PlacedNode>& nodes, const std::vector<bool>& used,

@@ -8,7 +8,7 @@
 
 namespace boxwood {
 
-/// Bytes of main memory of this machine.
+/// Bytes of main memory of this machine, or what limits leave this process of them.
 std::uint64_t host_memory();
 
 /// Refuses what a few bytes of a file would make too large, before anything is read: more than largest_implicit_total elements without data
