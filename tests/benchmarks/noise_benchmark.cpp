@@ -148,6 +148,7 @@ std::vector<Study> studies(const Settings& settings) {
     if (!settings.interior.empty()) {
         Scene interior = load_gltf(settings.interior);
         const Camera view = interior.cameras.empty() ? inside_view(interior) : interior.cameras[0];
+        all.push_back({"interior by day", interior, default_sky(), view});
         Light bulb;
         bulb.position = default_light(interior);
         bulb.intensity = glm::vec3(3.0f * glm::dot(bulb.position - eye(view), bulb.position - eye(view)));
@@ -255,8 +256,9 @@ int run(int argc, char** argv) {
     app.add_option("--device", wanted, "index of a device or a part of its name");
     app.add_option("--report", file, "JSON file to write");
     app.add_option("--interior", settings.interior,
-                   "a glTF scene to add, under the default sky, with a point light when it has none");
-    app.add_option("--scenes", settings.scenes, "of lamp, lamp and sun, wood, cornell, sky, interior (default: all)")
+                   "a glTF scene to add, under the default sky and, when it has no lights, so with a point light");
+    app.add_option("--scenes", settings.scenes,
+                   "of lamp, lamp and sun, wood, cornell, sky, interior by day, interior (default: all)")
         ->delimiter(',');
     app.add_flag("--default-only", settings.default_only, "sobol, cosine, mis alone");
     app.add_option("--across", settings.across, "pixels across a picture")->check(CLI::Range(1, 4096));
