@@ -118,10 +118,16 @@ DeviceState::Block DeviceState::allocate(std::size_t bytes, const char* label, b
     if (held_bytes + bytes > info.global_bytes) trim();
     if (held_bytes + bytes > info.global_bytes)
         throw CapacityError(what + ", in bytes", held_bytes + bytes, info.global_bytes);
-    cl_int status = CL_SUCCESS;
     // In the host's memory PoCL would ask for it at the first use, and end the process where there is none left.
     const cl_mem_flags now = info.cpu ? CL_MEM_ALLOC_HOST_PTR : 0;
-    const cl_mem handle = clCreateBuffer(context(), CL_MEM_READ_WRITE | now, bytes, nullptr, &status);
+    cl_int status = CL_SUCCESS;
+    cl_mem handle = clCreateBuffer(context(), CL_MEM_READ_WRITE | now, bytes, nullptr, &status);
+    if (status != CL_SUCCESS) {
+        // What was released is free once the work that uses it is done.
+        trim();
+        queue.finish();
+        handle = clCreateBuffer(context(), CL_MEM_READ_WRITE | now, bytes, nullptr, &status);
+    }
     if (status != CL_SUCCESS) throw CapacityError(what + ", in bytes", bytes, info.global_bytes - held_bytes);
     held_bytes += bytes;
     peak_bytes = std::max(peak_bytes, held_bytes);
