@@ -136,7 +136,7 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
 INLINE mask may_shine(const SceneArrays* scene, const Hits* hits) {
     int may[LANES];
     for (uint lane = 0; lane < LANES; ++lane) {
-Spot spot;
+        Spot spot;
         spot_of(scene, hits->instance[lane], hits->primitive[lane], 0.0f, 0.0f, &spot);
         global const MaterialRecord* material = scene->materials + spot.material;
         may[lane] = material->emission[0] > 0.0f || material->emission[1] > 0.0f || material->emission[2] > 0.0f ||
