@@ -167,8 +167,9 @@ TEST_CASE("light tree: every light is a leaf, below nodes that hold it") {
 
 TEST_CASE("light tree: what is chosen, and how often, is as in double precision") {
     const std::size_t count = small_sizes() ? 64 : 8192;
-    for (const auto& [lamps, suns] : {std::pair<std::size_t, std::size_t>{200, 2}, {2, 0}, {1, 1}, {1, 0}})
+    for (const auto& kinds : {std::pair<std::size_t, std::size_t>{200, 2}, {2, 0}, {1, 1}, {1, 0}})
         for (const float environment : {0.0f, 3.0f}) {
+            const std::size_t lamps = kinds.first, suns = kinds.second;
             CAPTURE(lamps);
             CAPTURE(environment);
             const std::vector<LightNode> nodes = light_tree(random_lights(lamps, suns));
