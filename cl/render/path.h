@@ -116,7 +116,8 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
         const real cosine = -dot3(&rays->direction, &point->surface.normal);
         LightShares shares;
         find_shares(world, &rays->origin, &shares);
-        const real other = shares.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
+        const real other =
+            shares.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
 #if STRATEGY == 0
         scale3(CHOOSE(shared, power_heuristic(pdf, other), (real)(1.0f)), light);
 #else
