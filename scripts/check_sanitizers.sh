@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-suites=${1:-hierarchy,primitives,render,cli,traverse,bounds,io,runtime,scene}
+suites=${1:-cli,hierarchy,render,io,traverse,primitives,bounds,runtime,scene}
 
 cmake --preset asan
 cmake --build --preset asan --target boxwood-tests

@@ -15,4 +15,5 @@ else
 fi
 cmake --preset release
 cmake --build --preset release
-ctest --test-dir build/release --build-config "$configuration" --output-on-failure --no-tests=error "$@"
+# Tests spend most of their time in compilers of kernels, on one core each.
+ctest --test-dir build/release --build-config "$configuration" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"

@@ -40,7 +40,7 @@ template <class Run>
 void check_memory_by_compute_units(const Run& run, std::uint32_t most = 1000) {
     Device& device = test_device();
     std::vector<std::uint64_t> peaks;
-    for (const Tuning& tuning : tunings_by_compute_units(most)) {
+    for (const Tuning& tuning : tunings_by_compute_units(small_sizes() ? 2 : most)) {
         CAPTURE(tuning.work_items);
         const TuningScope scope(tuning);
         device.trim();
