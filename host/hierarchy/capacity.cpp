@@ -52,7 +52,7 @@ void check_each(const Device& device, std::initializer_list<Need> needs) {
 
 } // namespace
 
-void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
+void check_capacity(Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
                     std::uint64_t instances, Builder builder) {
     for (const std::uint64_t primitives : {triangles, instances})
         if (primitives > most_primitives)
@@ -99,10 +99,12 @@ void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uin
     const std::uint64_t least = positions + indices + topology + placed +
                                 std::max({sizeof(Aabb) * triangles + splits.all, volumes + boxes + sorted + moments,
                                           volumes + boxes + result + top_level});
-    const std::uint64_t available =
-        device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
-    if (least > available)
-        throw CapacityError("bytes of memory of " + device.info().name + " for the build", least, available);
+    const auto available = [&] {
+        return device.info().global_bytes - std::min(device.held_bytes(), device.info().global_bytes);
+    };
+    if (least > available()) device.trim();
+    if (least > available())
+        throw CapacityError("bytes of memory of " + device.info().name + " for the build", least, available());
 }
 
 } // namespace boxwood

@@ -6,8 +6,9 @@
 namespace boxwood {
 
 /// Throws CapacityError when building a tree over `triangles` triangles and `vertices` vertices, with `instances` in a
-/// top level (0: none), by `builder` cannot fit the device whatever its shape turns out to be. O(1), before any work.
-void check_capacity(const Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
+/// top level (0: none), by `builder` cannot fit the device whatever its shape turns out to be. Empties
+/// the device's pool where that makes the room. O(1), before any work.
+void check_capacity(Device& device, Layout layout, Bounds bounds, std::uint64_t triangles, std::uint64_t vertices,
                     std::uint64_t instances, Builder builder = Builder::lbvh);
 
 } // namespace boxwood

@@ -313,6 +313,26 @@ TEST_CASE("build: the same bytes every time and at every tuning") {
     }
 }
 
+TEST_CASE("build: scratch of former work is not missing") {
+    if (small_sizes()) {
+        MESSAGE("skipped: fills the device's memory");
+        return;
+    }
+    Device& device = test_device();
+    const DeviceInfo& info = device.info();
+    const std::uint64_t largest = std::min<std::uint64_t>(info.largest_buffer_bytes, 1u << 30);
+    for (const Levels levels : {Levels::one, Levels::two}) {
+        std::vector<Buffer<unsigned char>> scratch;
+        while (device.held_bytes() < info.global_bytes) {
+            const std::uint64_t left = info.global_bytes - device.held_bytes();
+            scratch.push_back(make_scratch<unsigned char>(device, std::min(left, largest), "scratch"));
+        }
+        scratch.clear();
+        CHECK(device.held_bytes() == info.global_bytes);
+        CHECK_NOTHROW(build(device, placed_scene(), {.levels = levels}));
+    }
+}
+
 TEST_CASE("build: each of 50 meshes has the tree that it has alone") {
     std::vector<Mesh> meshes;
     for (std::uint32_t i = 0; i < 50; ++i) meshes.push_back(random_mesh(1 + 7 * i % 40, 1.0f, 0.1f, i));
