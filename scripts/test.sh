@@ -15,5 +15,5 @@ else
 fi
 cmake --preset release
 cmake --build --preset release
-# Tests spend most of their time in compilers of kernels, on one core each.
+# As many at once as there are cores: most of their time is that of compilers of kernels, on one core each.
 ctest --test-dir build/release --build-config "$configuration" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"
