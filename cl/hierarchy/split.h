@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How a top-down builder splits one node: slices of its extent along each axis, the boxes and counts of the primitives in them,
-// and the best plane between slices. All of it by minima, maxima and counts, so that the order of the work does not show.
+// How a top-down builder splits one node: the best plane between slices of its extent, or none.
 //
-// BINS                             most slices along an axis
-// BIN_BOX                          1: slices of the node's box; 0: of the box of its primitives' centres, fewer for small nodes
-// SLICE_PRIMITIVES                 a small node of n primitives has 4 + n / SLICE_PRIMITIVES slices
 // COST, AXES, STOP, FALLBACK_MEASURE, FALLBACK_AXES   functions of the strategy
-// Others: hierarchy/strategies.h.
+// Others: hierarchy/strategies.h, hierarchy/bins.h.
 #ifndef BOXWOOD_HIERARCHY_SPLIT_H
 #define BOXWOOD_HIERARCHY_SPLIT_H
+#include "hierarchy/bins.h"
 #include "hierarchy/strategies.h"
-#include "runtime/inline.h"
+#include "hierarchy/topdown.h"
 
-#if !defined(BINS) || !defined(BIN_BOX) || !defined(SLICE_PRIMITIVES)
-#error "define BINS, BIN_BOX and SLICE_PRIMITIVES"
-#endif
 #if !defined(COST) || !defined(AXES) || !defined(STOP)
 #error "define COST, AXES and STOP"
 #endif
@@ -22,111 +16,11 @@
 #error "define FALLBACK_MEASURE and FALLBACK_AXES"
 #endif
 
-// Bounds in a vector: min x, y, z, unused, -max x, y, z, unused. One minimum joins two. A primitive's record is its bounds with
-// its index in the first unused lane, as a number that arithmetic takes no detour for.
-#define NO_BOUNDS ((float8)(INFINITY))
-#define INDEX_MARK 0x40000000u
 #define NO_AXIS 3u
-
-INLINE uint index_of(float8 record) { return as_uint(record.s3) & ~INDEX_MARK; }
 
 inline Box box_of(float8 bounds) {
     const Box box = {(float4)(bounds.s012, -bounds.s4), -bounds.s56};
     return box;
-}
-
-/// The middle of a record's box; the last lane is 0.
-INLINE float4 middle_of(float8 record) {
-    const float4 middle = 0.5f * record.s0123 - 0.5f * record.s4567;
-    return (float4)(middle.xyz, 0.0f);
-}
-
-INLINE float8 point_bounds(float4 point) { return (float8)(point, -point); }
-
-/// Slices along each axis of a node. Few primitives need few.
-INLINE uint slices_of(uint count) {
-#if BIN_BOX
-    return BINS;
-#else
-    return min((uint)BINS, 4 + count / SLICE_PRIMITIVES);
-#endif
-}
-
-/// Where the slices are. Products round alike at every power-of-two scale; an axis without extent has but one slice.
-typedef struct Grid {
-    float4 low, zoom, scale, last;
-} Grid;
-
-INLINE void make_grid(Grid* grid, float8 bounds, float8 centres, uint count) {
-    const float8 range = BIN_BOX ? bounds : centres;
-    const float4 extent = (float4)(-range.s456 - range.s012, 0.0f);
-    const uint slices = slices_of(count);
-    grid->low = (float4)(range.s012, 0.0f);
-    grid->zoom = select((float4)(1.0f), (float4)(0x1p90f), extent < (float4)(0x1p-90f));
-    grid->scale = select((float4)(0.0f), (float)slices / (extent * grid->zoom), extent > (float4)(0.0f));
-    grid->last = (float4)((float)(slices - 1));
-}
-
-/// The slice along each axis. Clamped before it is an integer: those of centres far outside would be none.
-INLINE int4 place_in(const Grid* grid, float4 centre) {
-    const float4 place = (centre - grid->low) * grid->zoom * grid->scale;
-    return convert_int4(LESSER(GREATER(place, (float4)(0.0f)), grid->last));
-}
-
-/// Lane by lane: slices at or above which primitives go right when the plane is at `slice` of `axis`.
-INLINE int4 plane_at(uint axis, uint slice) {
-    const int4 lanes = (int4)(0, 1, 2, 3);
-    return select((int4)(0x7fffffff), (int4)((int)slice), lanes == (int4)((int)axis));
-}
-
-/// Slice s of axis k at [k * BINS + s].
-typedef struct Bins {
-    float8 bounds[3 * BINS];
-    uint counts[3 * BINS];
-} Bins;
-
-INLINE void clear_bins(Bins* bins, uint slices) {
-    for (uint k = 0; k < 3; ++k) {
-        for (uint s = 0; s < slices; ++s) {
-            bins->bounds[k * BINS + s] = NO_BOUNDS;
-            bins->counts[k * BINS + s] = 0;
-        }
-    }
-}
-
-/// Adds the bins of `other`.
-INLINE void join_bins(Bins* bins, const Bins* other, uint slices) {
-    for (uint k = 0; k < 3; ++k) {
-        for (uint s = k * BINS; s < k * BINS + slices; ++s) {
-            bins->bounds[s] = LESSER(other->bounds[s], bins->bounds[s]);
-            bins->counts[s] += other->counts[s];
-        }
-    }
-}
-
-INLINE void add_to_bin(Bins* bins, uint i, float8 record) {
-    bins->bounds[i] = LESSER(record, bins->bounds[i]);
-    ++bins->counts[i];
-}
-
-INLINE void add_to_bins(Bins* bins, int4 place, float8 record) {
-    add_to_bin(bins, (uint)place.x, record);
-    add_to_bin(bins, BINS + (uint)place.y, record);
-    add_to_bin(bins, 2 * BINS + (uint)place.z, record);
-}
-
-/// Adds bounds to those of the left (side 0) or right, both in registers: an array would go through memory.
-INLINE void add_to_side(float8* left, float8* right, float8 bounds, uint side) {
-    const int8 goes_right = (int8)(side != 0 ? -1 : 0);
-    *left = LESSER(select(bounds, NO_BOUNDS, goes_right), *left);
-    *right = LESSER(select(NO_BOUNDS, bounds, goes_right), *right);
-}
-
-/// The bounds of what lies in the slices of an axis below a plane, and of the others.
-INLINE void side_bounds(const Bins* bins, uint axis, uint slice, uint slices, float8* left, float8* right) {
-    *left = *right = NO_BOUNDS;
-    for (uint s = 0; s < slice; ++s) *left = LESSER(bins->bounds[axis * BINS + s], *left);
-    for (uint s = slice; s < slices; ++s) *right = LESSER(bins->bounds[axis * BINS + s], *right);
 }
 
 /// The best plane so far: primitives in slices below `slice` of `axis` go left.
@@ -199,12 +93,6 @@ INLINE uint best_axis(const float quality[3], uint left) {
         if ((left >> k & 1) && (best == NO_AXIS || quality[k] > quality[best])) best = k;
     return best;
 }
-
-// What became of a node, in TopDownTree::leaves until they are told apart: MARK_LEAF, and of a split node the axes tried.
-#define MARK_LEAF 1u
-#define MARK_SPLIT 2u
-#define MARK_FALLBACK 4u
-#define MARK_TRIED 8u // times the axes
 
 /// The best plane of the fallback: on its best axis that has one. Returns the axes tried.
 INLINE uint fall_back(const Distribution* d, const Bins* bins, const Question* q, Plane* best) {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the top-down builder share: how nodes are written, and records put into bins and parted.
+// What the kernels of the top-down builder share: how nodes are written, and how large ones are cut into chunks.
 //
-// OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
+// Macros: hierarchy/record.h.
 #ifndef BOXWOOD_HIERARCHY_TOPDOWN_H
 #define BOXWOOD_HIERARCHY_TOPDOWN_H
-#include "hierarchy/split.h"
+#include "hierarchy/record.h"
+#include "primitives/segments.h"
+#include "runtime/inline.h"
+#include "shared/topdown.h"
 
-#if !defined(OWN_CENTRES)
-#error "define OWN_CENTRES"
-#endif
+// What became of a node, in TopDownTree::leaves until they are told apart: MARK_LEAF, and of a split node the axes tried.
+#define MARK_LEAF 1u
+#define MARK_SPLIT 2u
+#define MARK_FALLBACK 4u
+#define MARK_TRIED 8u // times the axes
 
 /// As in Topology (include/boxwood/topology.hpp).
 typedef struct Nodes {
@@ -35,54 +40,34 @@ INLINE void write_node(const Nodes* n, uint first, uint count, uint flags, uint 
     n->marks[index] = mark;
 }
 
-INLINE float4 centre_of(float8 record, global const float* centres) {
-#if OWN_CENTRES
-    return (float4)(vload3(index_of(record), centres), 0.0f);
-#else
-    return middle_of(record);
-#endif
+// Nodes of more primitives than `chunk_size` are worked on by whole launches, cut into chunks of so many consecutive positions. Large
+// nodes and small ones are counted in one number.
+#define ONE_LARGE (1ul << 32)
+
+/// Positions [begin, end) of a chunk, and the node they are in.
+typedef struct Chunk {
+    uint node, begin, end;
+} Chunk;
+
+INLINE void find_chunk(Chunk* chunk, global const LargeNode* nodes, global const uint* first_chunks, uint node_count,
+                       uint chunk_size, uint i) {
+    const uint node = segment_of(first_chunks, node_count, i);
+    chunk->node = node;
+    chunk->begin = nodes[node].first + (i - first_chunks[node]) * chunk_size;
+    chunk->end = min(chunk->begin + chunk_size, nodes[node].first + nodes[node].count);
 }
 
-/// Counts below which one set of bins is as fast as two.
-#define FEW_RECORDS 64
+/// Chunks of a large node.
+INLINE uint chunks_of(uint count, uint chunk_size) { return (count - 1) / chunk_size + 1; }
 
-/// The bins of the records [begin, end), of at most `slices` slices along each axis. Two sets take turns: a record whose
-/// neighbour is in the same slice need not wait for it.
-INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* records, global const float* own_centres, uint begin,
-                        uint end, uint slices) {
-    clear_bins(bins, slices);
-    uint i = begin;
-    if (end - begin > FEW_RECORDS) {
-        Bins turn;
-        clear_bins(&turn, slices);
-        for (; i + 1 < end; i += 2) {
-            const float8 one = records[i], two = records[i + 1];
-            const int4 place_one = place_in(grid, centre_of(one, own_centres));
-            const int4 place_two = place_in(grid, centre_of(two, own_centres));
-            add_to_bins(bins, place_one, one);
-            add_to_bins(&turn, place_two, two);
-        }
-        join_bins(bins, &turn, slices);
-    }
-    for (; i < end; ++i) add_to_bins(bins, place_in(grid, centre_of(records[i], own_centres)), records[i]);
-}
+/// What a node of `count` primitives adds to the numbers of large nodes, small nodes and chunks.
+INLINE ulong kind_of(uint count, uint chunk_size) { return count > chunk_size ? ONE_LARGE : count > 1 ? 1 : 0; }
 
-/// Moves the records [begin, end) behind `next_left` or `next_right`, by the side of the plane at `limit` (see plane_at) that they
-/// are on, in order. *left and *right become the bounds of their centres.
-INLINE void part_records(const Grid* grid, int4 limit, global const float8* from, global const float* own_centres, uint begin,
-                         uint end, global float8* to, uint next_left, uint next_right, float8* left, float8* right) {
-    float8 left_centres = NO_BOUNDS, right_centres = NO_BOUNDS;
-    for (uint i = begin; i < end; ++i) {
-        const float8 record = from[i];
-        const float4 centre = centre_of(record, own_centres);
-        const uint side = any(place_in(grid, centre) >= limit) ? 1 : 0;
-        to[side == 0 ? next_left : next_right] = record;
-        next_left += 1 - side;
-        next_right += side;
-        add_to_side(&left_centres, &right_centres, point_bounds(centre), side);
-    }
-    *left = left_centres;
-    *right = right_centres;
+/// Joins bounds `kind` of the chunks of a node.
+INLINE float8 join_chunks(global const float8* chunk_bounds, uint first, uint chunks, uint kind) {
+    float8 bounds = NO_BOUNDS;
+    for (uint i = first; i < first + chunks; ++i) bounds = LESSER(chunk_bounds[2 * (size_t)i + kind], bounds);
+    return bounds;
 }
 
 #endif

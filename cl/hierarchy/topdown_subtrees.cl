@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Whole subtrees of a top-down build, each by one work-item, whose records stay in its cache: the same splits as those of
-// topdown_levels.cl. Macros: hierarchy/split.h, hierarchy/topdown.h.
+// topdown_levels.cl. Macros: hierarchy/split.h.
 // compile: BINS=32 BIN_BOX=0 SLICE_PRIMITIVES=16u BLOCK=4 OWN_CENTRES=0 MEASURE=surface_measure COST=overlap_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes
 // compile: BINS=16 BIN_BOX=1 SLICE_PRIMITIVES=1u BLOCK=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
-#include "hierarchy/topdown.h"
+#include "hierarchy/split.h"
 
 // The larger child waits and the smaller is gone on with, so that no more than log2 of the primitives wait.
 #define MOST_WAITING 32

@@ -36,18 +36,26 @@ Thresholds thresholds_of(const TopDownOptions& options) {
             {0, 0, 0}};
 }
 
-Defines defines_of(const TopDownOptions& options, bool own_centres) {
-    return {{"BINS", std::to_string(options.bins)},
-            {"BIN_BOX", options.bin_box ? "1" : "0"},
-            {"SLICE_PRIMITIVES", std::to_string(options.slice_primitives) + "u"},
-            {"BLOCK", std::to_string(options.block)},
-            {"OWN_CENTRES", own_centres ? "1" : "0"},
-            {"MEASURE", options.measure},
-            {"COST", options.cost},
-            {"AXES", options.axes},
-            {"STOP", options.stop},
-            {"FALLBACK_MEASURE", options.fallback_measure},
-            {"FALLBACK_AXES", options.fallback_axes}};
+// Macros of cl/hierarchy/record.h, bins.h and split.h: few programs depend on the strategy.
+
+Defines record_defines(bool own_centres) { return {{"OWN_CENTRES", own_centres ? "1" : "0"}}; }
+
+Defines bin_defines(const TopDownOptions& options, Defines defines) {
+    defines.insert({{"BINS", std::to_string(options.bins)},
+                    {"BIN_BOX", options.bin_box ? "1" : "0"},
+                    {"SLICE_PRIMITIVES", std::to_string(options.slice_primitives) + "u"}});
+    return defines;
+}
+
+Defines split_defines(const TopDownOptions& options, Defines defines) {
+    defines.insert({{"BLOCK", std::to_string(options.block)},
+                    {"MEASURE", options.measure},
+                    {"COST", options.cost},
+                    {"AXES", options.axes},
+                    {"STOP", options.stop},
+                    {"FALLBACK_MEASURE", options.fallback_measure},
+                    {"FALLBACK_AXES", options.fallback_axes}});
+    return defines;
 }
 
 void require(bool right, const char* option, const char* what) {
@@ -75,7 +83,8 @@ public:
     void tally(TopDownTree& tree);
 
 private:
-    KernelRef kernel(const char* name) const { return {"hierarchy/topdown_levels.cl", name, level_defines_, source_}; }
+    KernelRef root_kernel(const char* name) const { return {"hierarchy/topdown_roots.cl", name, record_defines_}; }
+    KernelRef level_kernel(const char* name) const { return {"hierarchy/topdown_levels.cl", name, bin_defines_}; }
     /// Scans what was counted of `count` nodes, takes the sums over, and returns how many small nodes there are.
     std::uint32_t count_next(std::uint32_t count);
     void split_level(std::uint32_t parity);
@@ -87,9 +96,11 @@ private:
     BufferView<const std::uint32_t> area_starts_;
     Topology& topology_;
     BufferView<std::uint32_t> marks_;
-    Defines defines_, level_defines_;
+    Defines record_defines_, bin_defines_, split_defines_;
     std::string source_;
-    std::uint32_t count_, trees_, large_, slots_;
+    std::uint32_t count_, trees_;
+    std::uint32_t chunk_size_; ///< Also what a node must have more primitives than to be large.
+    std::uint32_t slots_;
     Buffer<Thresholds> thresholds_;
     Buffer<cl_float8> records_[2];
     Buffer<LargeNode> nodes_[2]; ///< Of this level, and of the next.
@@ -116,13 +127,13 @@ Growth::Growth(Device& device, BufferView<const float> centres, BufferView<const
                BufferView<const InfluenceRecord> areas, BufferView<const std::uint32_t> area_starts,
                const TopDownOptions& options, Topology& topology, Buffer<std::uint32_t>& marks)
     : device_(device), centres_(centres), tree_bounds_(tree_bounds), areas_(areas), area_starts_(area_starts),
-      topology_(topology), marks_(marks), defines_(defines_of(options, centres.size() > 0)), level_defines_(defines_),
+      topology_(topology), marks_(marks), record_defines_(record_defines(centres.size() > 0)),
+      bin_defines_(bin_defines(options, record_defines_)), split_defines_(split_defines(options, bin_defines_)),
       source_(options.source), count_(static_cast<std::uint32_t>(topology.order.size())),
-      trees_(static_cast<std::uint32_t>(topology.trees())), large_(large_above(device, count_)),
+      trees_(static_cast<std::uint32_t>(topology.trees())), chunk_size_(large_above(device, count_)),
       slots_(3 * options.bins) {
-    level_defines_["LARGE"] = level_defines_["CHUNK"] = std::to_string(large_);
     thresholds_ = upload(device, std::vector<Thresholds>{thresholds_of(options)}, "thresholds");
-    const LevelSize most = largest_level(count_, large_);
+    const LevelSize most = largest_level(count_, chunk_size_);
     for (const int side : {0, 1}) {
         records_[side] = make_scratch<cl_float8>(device, count_, "records of primitives");
         nodes_[side] = make_scratch<LargeNode>(device, most.nodes, "large nodes");
@@ -140,7 +151,8 @@ Growth::Growth(Device& device, BufferView<const float> centres, BufferView<const
 
 void Growth::place(BufferView<const Aabb> boxes) {
     const Slices slices = cut(device_, count_);
-    launch(device_, kernel("topdown_records"), "records", slices.slices, boxes, records_[0], count_, slices.length);
+    launch(device_, root_kernel("topdown_records"), "records", slices.slices, boxes, records_[0], count_,
+           slices.length);
 }
 
 std::uint32_t Growth::count_next(std::uint32_t count) {
@@ -154,14 +166,15 @@ std::uint32_t Growth::count_next(std::uint32_t count) {
 
 /// The roots of the trees, as the nodes of the first level.
 void Growth::plant() {
-    launch(device_, kernel("topdown_seed"), "roots", trees_, topology_.offsets, kinds_, chunks_, topology_.order,
-           topology_.children, topology_.parents, topology_.far_ends, count_, trees_);
+    launch(device_, root_kernel("topdown_seed"), "roots", trees_, topology_.offsets, kinds_, chunks_, topology_.order,
+           topology_.children, topology_.parents, topology_.far_ends, count_, trees_, chunk_size_);
     small_count_ = count_next(trees_);
-    launch(device_, kernel("topdown_plant"), "roots", trees_, topology_.offsets, kinds_, chunks_, nodes_[0],
-           first_chunks_[0], small_nodes_, trees_);
-    launch(device_, kernel("topdown_measure"), "roots", chunk_count_, nodes_[0], first_chunks_[0], records_[0],
-           centres_, chunk_bounds_, node_count_, chunk_count_);
-    launch(device_, kernel("topdown_roots"), "roots", node_count_, nodes_[0], chunk_bounds_, node_count_);
+    launch(device_, root_kernel("topdown_plant"), "roots", trees_, topology_.offsets, kinds_, chunks_, nodes_[0],
+           first_chunks_[0], small_nodes_, trees_, chunk_size_);
+    launch(device_, root_kernel("topdown_measure"), "roots", chunk_count_, nodes_[0], first_chunks_[0], records_[0],
+           centres_, chunk_bounds_, node_count_, chunk_count_, chunk_size_);
+    launch(device_, root_kernel("topdown_roots"), "roots", node_count_, nodes_[0], chunk_bounds_, node_count_,
+           chunk_size_);
 }
 
 void Growth::split_level(std::uint32_t parity) {
@@ -169,20 +182,20 @@ void Growth::split_level(std::uint32_t parity) {
     const Buffer<LargeNode>&level = nodes_[parity], &next = nodes_[1 - parity];
     const Buffer<std::uint32_t>& firsts = first_chunks_[parity];
     const Buffer<cl_float8>&from = records_[parity], &to = records_[1 - parity];
-    launch(device_, kernel("topdown_bin"), "bin", chunks, level, firsts, from, centres_, chunk_bins_, chunk_counts_,
-           nodes, chunks);
+    launch(device_, level_kernel("topdown_bin"), "bin", chunks, level, firsts, from, centres_, chunk_bins_,
+           chunk_counts_, nodes, chunks, chunk_size_);
     const Slices slots = cut(device_, std::size_t{nodes} * slots_);
-    launch(device_, kernel("topdown_merge"), "merge", slots.slices, level, chunk_bins_, chunk_counts_, node_bins_,
-           node_counts_, nodes * slots_, slots.length);
-    launch(device_, kernel("topdown_choose"), "choose", nodes, level, node_bins_, node_counts_, tree_bounds_, areas_,
-           area_starts_, thresholds_, kinds_, chunks_, topology_.order, topology_.children, topology_.parents,
-           topology_.far_ends, marks_, count_, nodes);
-    launch(device_, kernel("topdown_scatter"), "scatter", chunks, level, firsts, from, centres_, chunk_counts_, to,
-           chunk_bounds_, nodes, chunks);
+    launch(device_, level_kernel("topdown_merge"), "merge", slots.slices, level, chunk_bins_, chunk_counts_, node_bins_,
+           node_counts_, nodes * slots_, slots.length, chunk_size_);
+    launch(device_, {"hierarchy/topdown_choose.cl", "topdown_choose", split_defines_, source_}, "choose", nodes, level,
+           node_bins_, node_counts_, tree_bounds_, areas_, area_starts_, thresholds_, kinds_, chunks_, topology_.order,
+           topology_.children, topology_.parents, topology_.far_ends, marks_, count_, nodes, chunk_size_);
+    launch(device_, level_kernel("topdown_scatter"), "scatter", chunks, level, firsts, from, centres_, chunk_counts_,
+           to, chunk_bounds_, nodes, chunks, chunk_size_);
     const std::uint32_t small_nodes = count_next(nodes);
-    launch(device_, kernel("topdown_emit"), "emit", nodes, level, node_bins_, to, chunk_bounds_, kinds_, chunks_, next,
-           first_chunks_[1 - parity], small_nodes_, topology_.order, nodes, small_count_,
-           std::uint32_t{parity ? NODE_OTHER : 0u});
+    launch(device_, level_kernel("topdown_emit"), "emit", nodes, level, node_bins_, to, chunk_bounds_, kinds_, chunks_,
+           next, first_chunks_[1 - parity], small_nodes_, topology_.order, nodes, small_count_,
+           std::uint32_t{parity ? NODE_OTHER : 0u}, chunk_size_);
     small_count_ += small_nodes;
 }
 
@@ -196,7 +209,7 @@ void Growth::finish() {
     const std::uint32_t most = 16 * device_.tuning().work_items;
     const std::uint32_t length = small_count_ == 0 ? 1 : (small_count_ - 1) / most + 1;
     const std::uint32_t slices = small_count_ == 0 ? 0 : (small_count_ - 1) / length + 1;
-    launch(device_, {"hierarchy/topdown_subtrees.cl", "topdown_subtrees", defines_, source_}, "subtrees", slices,
+    launch(device_, {"hierarchy/topdown_subtrees.cl", "topdown_subtrees", split_defines_, source_}, "subtrees", slices,
            small_nodes_, records_[0], records_[1], centres_, tree_bounds_, areas_, area_starts_, thresholds_,
            topology_.order, topology_.children, topology_.parents, topology_.far_ends, marks_, count_, small_count_,
            length);
@@ -205,7 +218,7 @@ void Growth::finish() {
 void Growth::tally(TopDownTree& tree) {
     const Slices slices = cut(device_, count_);
     const Buffer<std::uint32_t> sums = make_scratch<std::uint32_t>(device_, 3 * slices.slices, "tallies");
-    launch(device_, kernel("topdown_tally"), "tally", slices.slices, marks_, sums, count_, slices.length);
+    launch(device_, root_kernel("topdown_tally"), "tally", slices.slices, marks_, sums, count_, slices.length);
     const std::vector<std::uint32_t> found = download(device_, sums);
     for (std::size_t i = 0; i < found.size(); i += 3) {
         tree.splits += found[i];

@@ -2,7 +2,6 @@
 #include "traverse/specialise.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "boxwood/error.hpp"
@@ -21,11 +20,12 @@ std::string_view name(Intersector intersector) { return word_of(intersectors, in
 Intersector to_intersector(std::string_view word) { return value_of(intersectors, "intersector", word); }
 
 std::uint32_t stack_entries(std::uint64_t needed) {
-    constexpr std::uint64_t least = 32;
     // 2^18 entries are 2 MiB per work-item; a tree as deep as that is no tree to trace.
     constexpr std::uint64_t most = 1u << 18;
     if (needed > most) throw CapacityError("traversal stack entries", needed, most);
-    return static_cast<std::uint32_t>(std::bit_ceil(std::max(needed, least)));
+    std::uint32_t entries = 64;
+    while (entries < needed) entries *= 8;
+    return entries;
 }
 
 std::uint32_t stack_size(const Tree& tree) {

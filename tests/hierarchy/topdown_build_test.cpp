@@ -55,6 +55,18 @@ TEST_CASE("topdown builds: updates build anew by the same builder") {
     }
 }
 
+TEST_CASE("topdown builds: scenes of other sizes use the same programs") {
+    if (small_sizes()) return; // too few triangles for other chunks
+    const auto build_of = [](std::uint64_t triangles) {
+        const Scene scene = make_procedural("terrain", {.triangles = triangles});
+        build(test_device(), scene, {.builder = Builder::sah});
+        return test_device().compile_ms();
+    };
+    const double compiled = build_of(200'000); // of all the passes that there are
+    CHECK(build_of(60'000) == compiled);
+    CHECK(build_of(20'000) == compiled);
+}
+
 TEST_CASE("topdown builds: what the check of capacity counts on is what is taken") {
     if (small_sizes()) return; // no use for memory of a simulator
     for (const Tuning& tuning : {test_device().tuning(), Tuning{64, 4096, 1, 8}}) {

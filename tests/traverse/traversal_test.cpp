@@ -146,8 +146,8 @@ TEST_CASE("traversal: zero-area triangles are never hit, and do not hide others"
 
 TEST_CASE("traversal: the deepest tree fills the stack and no more") {
     // One triangle splits off at each level, and a ray from the far end goes down the whole chain before it comes back.
-    // 65 triangles make 64 binary nodes, which fill a stack of 64 exactly; 257 one of 256.
-    for (const std::uint32_t triangles : {65u, 257u}) {
+    // 65 triangles make 64 binary nodes, which fill a stack of 64 exactly; 513 one of 512.
+    for (const std::uint32_t triangles : {65u, 513u}) {
         if (small_sizes() && triangles > 65) continue;
         Mesh mesh;
         for (std::uint32_t i = 0; i < triangles; ++i) {

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Slices of a node's extent along each axis, and the boxes and counts of the primitives in them. All of it by minima, maxima and
+// counts, so that the order of the work does not show.
+//
+// BINS              most slices along an axis
+// BIN_BOX           1: slices of the node's box; 0: of the box of its primitives' centres, fewer for small nodes
+// SLICE_PRIMITIVES  a small node of n primitives has 4 + n / SLICE_PRIMITIVES slices
+// Others: hierarchy/record.h.
+#ifndef BOXWOOD_HIERARCHY_BINS_H
+#define BOXWOOD_HIERARCHY_BINS_H
+#include "hierarchy/record.h"
+
+#if !defined(BINS) || !defined(BIN_BOX) || !defined(SLICE_PRIMITIVES)
+#error "define BINS, BIN_BOX and SLICE_PRIMITIVES"
+#endif
+
+/// Slices along each axis of a node. Few primitives need few.
+INLINE uint slices_of(uint count) {
+#if BIN_BOX
+    return BINS;
+#else
+    return min((uint)BINS, 4 + count / SLICE_PRIMITIVES);
+#endif
+}
+
+/// Where the slices are. Products round alike at every power-of-two scale; an axis without extent has but one slice.
+typedef struct Grid {
+    float4 low, zoom, scale, last;
+} Grid;
+
+INLINE void make_grid(Grid* grid, float8 bounds, float8 centres, uint count) {
+    const float8 range = BIN_BOX ? bounds : centres;
+    const float4 extent = (float4)(-range.s456 - range.s012, 0.0f);
+    const uint slices = slices_of(count);
+    grid->low = (float4)(range.s012, 0.0f);
+    grid->zoom = select((float4)(1.0f), (float4)(0x1p90f), extent < (float4)(0x1p-90f));
+    grid->scale = select((float4)(0.0f), (float)slices / (extent * grid->zoom), extent > (float4)(0.0f));
+    grid->last = (float4)((float)(slices - 1));
+}
+
+/// The slice along each axis. Clamped before it is an integer: those of centres far outside would be none.
+INLINE int4 place_in(const Grid* grid, float4 centre) {
+    const float4 place = (centre - grid->low) * grid->zoom * grid->scale;
+    return convert_int4(LESSER(GREATER(place, (float4)(0.0f)), grid->last));
+}
+
+/// Lane by lane: slices at or above which primitives go right when the plane is at `slice` of `axis`.
+INLINE int4 plane_at(uint axis, uint slice) {
+    const int4 lanes = (int4)(0, 1, 2, 3);
+    return select((int4)(0x7fffffff), (int4)((int)slice), lanes == (int4)((int)axis));
+}
+
+/// Slice s of axis k at [k * BINS + s].
+typedef struct Bins {
+    float8 bounds[3 * BINS];
+    uint counts[3 * BINS];
+} Bins;
+
+INLINE void clear_bins(Bins* bins, uint slices) {
+    for (uint k = 0; k < 3; ++k) {
+        for (uint s = 0; s < slices; ++s) {
+            bins->bounds[k * BINS + s] = NO_BOUNDS;
+            bins->counts[k * BINS + s] = 0;
+        }
+    }
+}
+
+/// Adds the bins of `other`.
+INLINE void join_bins(Bins* bins, const Bins* other, uint slices) {
+    for (uint k = 0; k < 3; ++k) {
+        for (uint s = k * BINS; s < k * BINS + slices; ++s) {
+            bins->bounds[s] = LESSER(other->bounds[s], bins->bounds[s]);
+            bins->counts[s] += other->counts[s];
+        }
+    }
+}
+
+INLINE void add_to_bin(Bins* bins, uint i, float8 record) {
+    bins->bounds[i] = LESSER(record, bins->bounds[i]);
+    ++bins->counts[i];
+}
+
+INLINE void add_to_bins(Bins* bins, int4 place, float8 record) {
+    add_to_bin(bins, (uint)place.x, record);
+    add_to_bin(bins, BINS + (uint)place.y, record);
+    add_to_bin(bins, 2 * BINS + (uint)place.z, record);
+}
+
+/// Adds bounds to those of the left (side 0) or right, both in registers: an array would go through memory.
+INLINE void add_to_side(float8* left, float8* right, float8 bounds, uint side) {
+    const int8 goes_right = (int8)(side != 0 ? -1 : 0);
+    *left = LESSER(select(bounds, NO_BOUNDS, goes_right), *left);
+    *right = LESSER(select(NO_BOUNDS, bounds, goes_right), *right);
+}
+
+/// The bounds of what lies in the slices of an axis below a plane, and of the others.
+INLINE void side_bounds(const Bins* bins, uint axis, uint slice, uint slices, float8* left, float8* right) {
+    *left = *right = NO_BOUNDS;
+    for (uint s = 0; s < slice; ++s) *left = LESSER(bins->bounds[axis * BINS + s], *left);
+    for (uint s = slice; s < slices; ++s) *right = LESSER(bins->bounds[axis * BINS + s], *right);
+}
+
+/// Counts below which one set of bins is as fast as two.
+#define FEW_RECORDS 64
+
+/// The bins of the records [begin, end), of at most `slices` slices along each axis. Two sets take turns: a record whose
+/// neighbour is in the same slice need not wait for it.
+INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* records, global const float* own_centres, uint begin,
+                        uint end, uint slices) {
+    clear_bins(bins, slices);
+    uint i = begin;
+    if (end - begin > FEW_RECORDS) {
+        Bins turn;
+        clear_bins(&turn, slices);
+        for (; i + 1 < end; i += 2) {
+            const float8 one = records[i], two = records[i + 1];
+            const int4 place_one = place_in(grid, centre_of(one, own_centres));
+            const int4 place_two = place_in(grid, centre_of(two, own_centres));
+            add_to_bins(bins, place_one, one);
+            add_to_bins(&turn, place_two, two);
+        }
+        join_bins(bins, &turn, slices);
+    }
+    for (; i < end; ++i) add_to_bins(bins, place_in(grid, centre_of(records[i], own_centres)), records[i]);
+}
+
+/// Moves the records [begin, end) behind `next_left` or `next_right`, by the side of the plane at `limit` (see plane_at) that they
+/// are on, in order. *left and *right become the bounds of their centres.
+INLINE void part_records(const Grid* grid, int4 limit, global const float8* from, global const float* own_centres, uint begin,
+                         uint end, global float8* to, uint next_left, uint next_right, float8* left, float8* right) {
+    float8 left_centres = NO_BOUNDS, right_centres = NO_BOUNDS;
+    for (uint i = begin; i < end; ++i) {
+        const float8 record = from[i];
+        const float4 centre = centre_of(record, own_centres);
+        const uint side = any(place_in(grid, centre) >= limit) ? 1 : 0;
+        to[side == 0 ? next_left : next_right] = record;
+        next_left += 1 - side;
+        next_right += side;
+        add_to_side(&left_centres, &right_centres, point_bounds(centre), side);
+    }
+    *left = left_centres;
+    *right = right_centres;
+}
+
+#endif
