@@ -7,25 +7,28 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${1:-build/release}
-suites=${2:-hierarchy,render,traverse,primitives,bounds,runtime}
+suites=${2:-render,hierarchy,traverse,primitives,bounds,runtime}
 export build
 export logs=$build/oclgrind
 rm -rf "$logs"
 mkdir -p "$logs"
 
-# A process for each suite, one on each core: after every kernel Oclgrind goes through all buffers of its process, on one thread.
-# Not by --log: every context that a test opens would start that file anew.
-check_suite() {
+# A process for each part of a suite, one on each core: after every kernel Oclgrind goes through all buffers of its process, on one
+# thread. Not by --log: every context that a test opens would start that file anew.
+check_part() {
+    local log="$logs/$1-$2"
     if ! BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --max-errors 1000000 \
-        "$build/boxwood-tests" --no-intro --test-suite="$1" >"$logs/$1.txt" 2>"$logs/$1.log"; then
-        cat "$logs/$1.txt"
-        tail -c 20000 "$logs/$1.log"
+        "$build/boxwood-tests" --no-intro --test-suite="$1" --first="$2" --last="$3" >"$log.txt" 2>"$log.log"; then
+        cat "$log.txt"
+        tail -c 20000 "$log.log"
         return 1
     fi
 }
-export -f check_suite
+export -f check_part
 # Longest first.
-tr ',' '\n' <<<"$suites" | xargs -P "$(nproc)" -I{} bash -c 'check_suite {}'
+# shellcheck disable=SC2086 # words
+scripts/suite_parts.sh "$build/boxwood-tests" 40 ${suites//,/ } |
+    xargs -P "$(nproc)" -L 1 bash -c 'check_part "$@"' part
 cat "$logs"/*.txt
 
 # climb.h hands off for the kernels that include it.

@@ -11,9 +11,18 @@ cmake --preset asan
 cmake --build --preset asan --target boxwood-tests
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan.supp:print_suppressions=0"
 export UBSAN_OPTIONS=print_stacktrace=1 BOXWOOD_SMALL=1
-# A process for each suite, one on each core, longest first. Processes of the tool end while PoCL's threads do, where LeakSanitizer 14
-# itself may fail: leaks are looked for in the other suites.
-tr ',' '\n' <<<"$suites" | xargs -P "$(nproc)" -I{} bash -c '
-    [[ {} != cli ]] || export ASAN_OPTIONS=detect_leaks=0
-    build/asan/boxwood-tests --no-intro --test-suite={} >build/asan/{}.txt 2>&1 || { tail -c 20000 build/asan/{}.txt; exit 1; }
-    tail -n 4 build/asan/{}.txt'
+# A process for each part of a suite, one on each core, longest first. Processes of the tool end while PoCL's threads do, where
+# LeakSanitizer 14 itself may fail: leaks are looked for in the other suites.
+check_part() {
+    local log="build/asan/$1-$2.txt"
+    [[ $1 != cli ]] || export ASAN_OPTIONS=detect_leaks=0
+    build/asan/boxwood-tests --no-intro --test-suite="$1" --first="$2" --last="$3" >"$log" 2>&1 || {
+        tail -c 20000 "$log"
+        return 1
+    }
+    tail -n 4 "$log"
+}
+export -f check_part
+# shellcheck disable=SC2086 # words
+scripts/suite_parts.sh build/asan/boxwood-tests 40 ${suites//,/ } |
+    xargs -P "$(nproc)" -L 1 bash -c 'check_part "$@"' part

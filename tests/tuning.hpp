@@ -56,7 +56,7 @@ void check_memory_by_compute_units(const Run& run, std::uint32_t most = 1000) {
 /// everything, where work-items behind it in its group must not begin again beyond 2^32 (the first two under a checker).
 inline std::vector<Tuning> tunings() {
     if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
-    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1, 8}, {4, 16, 1u << 31, 16}};
+    return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1, 8}, {3, 16, 1u << 31}};
 }
 
 } // namespace boxwood::test

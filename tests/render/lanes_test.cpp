@@ -129,7 +129,6 @@ TEST_CASE("lanes: pictures of every integrator are the same by one, eight and si
     options.light.strategy = Strategy::bsdf;
     options.light.hemisphere = Hemisphere::uniform;
     options.light.sampler = SamplerKind::stratified;
-    check(options);
     // Programs without transforms.
     for (Instance& instance : scene.instances) instance.transform = glm::mat4(1.0f);
     tree = build(device, scene);

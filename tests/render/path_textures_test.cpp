@@ -79,7 +79,7 @@ TEST_CASE("path: a lamp that is cut out, or let light pass, by its texture shine
     Material material = lamp(glm::vec3(3.0f));
     material.base_color_texture.texture = 0;
     material.alpha_mode = AlphaMode::mask;
-    check_halves(under_square(material, {9, 9, 9, 100}, {9, 9, 9, 200}), 0.0, 3.0);
+    if (!small_sizes()) check_halves(under_square(material, {9, 9, 9, 100}, {9, 9, 9, 200}), 0.0, 3.0);
     material.alpha_mode = AlphaMode::blend;
     check_halves(under_square(material, {9, 9, 9, 51}, {9, 9, 9, 153}), 3.0 * 0.2, 3.0 * 0.6);
 }
