@@ -46,7 +46,7 @@ double told_over_true(SamplerKind sampler) {
                 0.2126 * plane(image, "R")[i] + 0.7152 * plane(image, "G")[i] + 0.0722 * plane(image, "B")[i];
             sum[i] += y;
             square[i] += y * y;
-            told += plane(image, "variance.Y")[i] / seeds;
+            told += static_cast<double>(plane(image, "variance.Y")[i]) / seeds;
         }
     }
     for (std::uint32_t i = 0; i < pixels; ++i) found += (square[i] - sum[i] * sum[i] / seeds) / (seeds - 1);
