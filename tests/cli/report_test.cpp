@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -149,23 +150,23 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
 TEST_CASE("report: a scene and its .bxw file give the same hits and the same picture") {
     const Tool tool;
     make_forest(tool);
-    for (const std::string options : {"--layout wide8 --levels two", "--layout binary --levels one",
-                                      "--layout wide8 --levels one --morton 63", "--bounds obb-points"}) {
+    // Each kind of tree with one kind of rays.
+    const std::pair<std::string, std::string> kinds[] = {{"--layout wide8 --levels two", "primary"},
+                                                         {"--layout binary --levels one", "diffuse"},
+                                                         {"--layout wide8 --levels one --morton 63", "shadow"},
+                                                         {"--bounds obb-points", "near"}};
+    for (const auto& kind : kinds) {
+        const std::string &options = kind.first, &rays = kind.second;
         CAPTURE(options);
         tool.succeed("build forest.glb -o forest.bxw " + options);
-        int kind = 0;
-        for (const std::string rays : {"primary", "diffuse", "shadow", "near"}) {
-            CAPTURE(rays);
-            const std::string trace = " --resolution 64x64 --seed 5 --rays " + rays;
-            tool.succeed("trace forest.glb --report a.json " + options + trace);
-            tool.succeed("trace forest.bxw --report b.json" + trace);
-            const Json from_scene = report(tool, "a.json")["trace"], from_file = report(tool, "b.json")["trace"];
-            for (const std::string key : {"checksum", "rays", "hits", "nodes_per_ray", "primitives_per_ray"})
-                CHECK(from_scene[key] == from_file[key]);
-            CHECK(from_scene["hits"] > 0);
-            if (kind == 0) CHECK(from_scene["rays"] == 4096);
-            ++kind;
-        }
+        const std::string trace = " --resolution 64x64 --seed 5 --rays " + rays;
+        tool.succeed("trace forest.glb --report a.json " + options + trace);
+        tool.succeed("trace forest.bxw --report b.json" + trace);
+        const Json from_scene = report(tool, "a.json")["trace"], from_file = report(tool, "b.json")["trace"];
+        for (const std::string key : {"checksum", "rays", "hits", "nodes_per_ray", "primitives_per_ray"})
+            CHECK(from_scene[key] == from_file[key]);
+        CHECK(from_scene["hits"] > 0);
+        if (rays == "primary") CHECK(from_scene["rays"] == 4096);
         tool.succeed("render forest.glb -o a.exr --spp 1 --aov depth,cost --resolution 64x64 " + options);
         tool.succeed("render forest.bxw -o b.exr --spp 1 --aov depth,cost --resolution 64x64");
         CHECK(tool.contents("a.exr") == tool.contents("b.exr"));
