@@ -50,10 +50,12 @@ INLINE int4 plane_at(uint axis, uint slice) {
     return select((int4)(0x7fffffff), (int4)((int)slice), lanes == (int4)((int)axis));
 }
 
+#define SLOTS (3 * BINS)
+
 /// Slice s of axis k at [k * BINS + s].
 typedef struct Bins {
-    float8 bounds[3 * BINS];
-    uint counts[3 * BINS];
+    float8 bounds[SLOTS];
+    uint counts[SLOTS];
 } Bins;
 
 INLINE void clear_bins(Bins* bins, uint slices) {

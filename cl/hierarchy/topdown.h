@@ -40,8 +40,8 @@ INLINE void write_node(const Nodes* n, uint first, uint count, uint flags, uint 
     n->marks[index] = mark;
 }
 
-// Nodes of more primitives than `chunk_size` are worked on by whole launches, cut into chunks of so many consecutive positions. Large
-// nodes and small ones are counted in one number.
+// Nodes of more primitives than `chunk_size` are large: whole launches work on them, cut into chunks of so many consecutive
+// positions. Large nodes and small ones are counted in one number.
 #define ONE_LARGE (1ul << 32)
 
 /// Positions [begin, end) of a chunk, and the node they are in.
@@ -57,8 +57,8 @@ INLINE void find_chunk(Chunk* chunk, global const LargeNode* nodes, global const
     chunk->end = min(chunk->begin + chunk_size, nodes[node].first + nodes[node].count);
 }
 
-/// Chunks of a large node.
-INLINE uint chunks_of(uint count, uint chunk_size) { return (count - 1) / chunk_size + 1; }
+/// Chunks of a node of `count` primitives: none of a small one.
+INLINE uint chunks_of(uint count, uint chunk_size) { return count > chunk_size ? (count - 1) / chunk_size + 1 : 0; }
 
 /// What a node of `count` primitives adds to the numbers of large nodes, small nodes and chunks.
 INLINE ulong kind_of(uint count, uint chunk_size) { return count > chunk_size ? ONE_LARGE : count > 1 ? 1 : 0; }

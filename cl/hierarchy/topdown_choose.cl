@@ -6,8 +6,6 @@
 // compile: BINS=16 BIN_BOX=1 SLICE_PRIMITIVES=1u BLOCK=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
 #include "hierarchy/split.h"
 
-#define SLOTS (3 * BINS)
-
 /// Chooses the plane of each node and writes the node; counts the kinds of its children and their chunks. A leaf goes on as a
 /// small node, whatever its size: it has nothing to decide any more. After: the first two slots of a node's bins are the bounds of
 /// its children.
@@ -51,7 +49,7 @@ void topdown_choose(global LargeNode* nodes, global float8* node_bins, global co
     nodes[i].left_count = left_count;
     nodes[i].cut = 4 * plane.slice + plane.axis;
     kinds[i] = kind_of(left_count, chunk_size) + kind_of(right_count, chunk_size);
-    chunks[i] = (left_count > chunk_size ? chunks_of(left_count, chunk_size) : 0) + (right_count > chunk_size ? chunks_of(right_count, chunk_size) : 0);
+    chunks[i] = chunks_of(left_count, chunk_size) + chunks_of(right_count, chunk_size);
     const Nodes written = {order, children, parents, far_ends, marks, count};
     write_node(&written, node.first, node.count, node.flags, left_count, mark);
 }

@@ -9,8 +9,6 @@
 #include "hierarchy/bins.h"
 #include "hierarchy/topdown.h"
 
-#define SLOTS (3 * BINS)
-
 INLINE void grid_of(Grid* grid, global const LargeNode* node) {
     make_grid(grid, vload8(0, node->bounds), vload8(0, node->centres), node->count);
 }
@@ -97,7 +95,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_emit(global const LargeNode* nodes, global const float8* node_bins, global const float8* scattered,
                   global const float8* chunk_bounds,
                   global const ulong* kinds, global const uint* chunks, global LargeNode* next, global uint* next_chunks,
-                  global SmallNode* small_nodes, global uint* order, uint node_count, uint small_before, uint parity, uint chunk_size) {
+                  global SmallNode* small_nodes, global uint* order, uint node_count, uint small_before, uint parity,
+                  uint chunk_size) {
     const uint i = (uint)get_global_id(0);
     if (i >= node_count) return;
     const LargeNode node = nodes[i];

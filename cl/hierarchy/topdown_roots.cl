@@ -28,7 +28,7 @@ void topdown_seed(global const uint* offsets, global ulong* kinds, global uint* 
     if (tree >= trees) return;
     const uint first = offsets[tree], last = offsets[tree + 1] - 1, size = last - first + 1;
     kinds[tree] = kind_of(size, chunk_size);
-    chunks[tree] = size > chunk_size ? chunks_of(size, chunk_size) : 0;
+    chunks[tree] = chunks_of(size, chunk_size);
     children[last] = (uint2)(BOXWOOD_NONE, BOXWOOD_NONE);
     far_ends[last] = last;
     parents[last] = BOXWOOD_NONE;
@@ -60,7 +60,8 @@ void topdown_plant(global const uint* offsets, global const ulong* kinds, global
 /// Bounds of boxes [2 i] and of centres [2 i + 1] of chunk i.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_measure(global const LargeNode* nodes, global const uint* first_chunks, global const float8* records,
-                     global const float* own_centres, global float8* chunk_bounds, uint node_count, uint chunk_count, uint chunk_size) {
+                     global const float* own_centres, global float8* chunk_bounds, uint node_count, uint chunk_count,
+                     uint chunk_size) {
     const uint i = (uint)get_global_id(0);
     if (i >= chunk_count) return;
     Chunk chunk;

@@ -17,7 +17,7 @@ namespace {
 
 /// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
 /// work-items there are, and for the caches of a CPU.
-std::uint32_t large_above(const Device& device, std::uint64_t primitives) {
+std::uint32_t chunk_size_for(const Device& device, std::uint64_t primitives) {
     // Every level has launches to wait for: fewer are better as long as there is a subtree for every other work-item.
     const std::uint64_t length = cut(device, std::max<std::uint64_t>(primitives, 1)).length;
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(2 * length, 64, 4096));
@@ -118,9 +118,9 @@ struct LevelSize {
     std::uint64_t nodes, chunks;
 };
 
-LevelSize largest_level(std::uint64_t primitives, std::uint32_t large) {
-    const std::uint64_t nodes = primitives / (large + 1);
-    return {nodes, primitives / large + nodes};
+LevelSize largest_level(std::uint64_t primitives, std::uint32_t chunk_size) {
+    const std::uint64_t nodes = primitives / (chunk_size + 1);
+    return {nodes, primitives / chunk_size + nodes};
 }
 
 Growth::Growth(Device& device, BufferView<const float> centres, BufferView<const Aabb> tree_bounds,
@@ -130,7 +130,7 @@ Growth::Growth(Device& device, BufferView<const float> centres, BufferView<const
       topology_(topology), marks_(marks), record_defines_(record_defines(centres.size() > 0)),
       bin_defines_(bin_defines(options, record_defines_)), split_defines_(split_defines(options, bin_defines_)),
       source_(options.source), count_(static_cast<std::uint32_t>(topology.order.size())),
-      trees_(static_cast<std::uint32_t>(topology.trees())), chunk_size_(large_above(device, count_)),
+      trees_(static_cast<std::uint32_t>(topology.trees())), chunk_size_(chunk_size_for(device, count_)),
       slots_(3 * options.bins) {
     thresholds_ = upload(device, std::vector<Thresholds>{thresholds_of(options)}, "thresholds");
     const LevelSize most = largest_level(count_, chunk_size_);
@@ -253,7 +253,7 @@ void check(const TopDownOptions& options) {
 }
 
 TopDownBytes topdown_bytes(const Device& device, std::uint64_t primitives, std::uint32_t bins) {
-    const LevelSize most = largest_level(primitives, large_above(device, primitives));
+    const LevelSize most = largest_level(primitives, chunk_size_for(device, primitives));
     const std::uint64_t records = sizeof(cl_float8) * primitives;
     const std::uint64_t bins_of_chunks = sizeof(cl_float8) * 3 * bins * most.chunks;
     const std::uint64_t slots = (sizeof(cl_float8) + 4) * 3 * bins * (most.chunks + most.nodes);
