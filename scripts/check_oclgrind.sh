@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${1:-build/release}
-suites=${2:-render,hierarchy,traverse,primitives,bounds,runtime}
+suites=${2:-render,build,traverse,influence,volumes,layout,metrics,primitives,bounds,runtime}
 export build
 export logs=$build/oclgrind
 rm -rf "$logs"
@@ -33,7 +33,7 @@ cat "$logs"/*.txt
 
 # climb.h hands off for the kernels that include it.
 # shellcheck disable=SC2016 # $1 is Perl's
-handoff=$({ grep -rlE --include='*.cl' 'runtime/handoff.h|hierarchy/climb.h' cl tests || true; } |
+handoff=$({ grep -rlE --include='*.cl' 'runtime/handoff.h|volumes/climb.h' cl tests || true; } |
     xargs -r perl -0ne 'print "$1 " while /\bkernel\b[^;{]*?\bvoid\s+(\w+)\s*\(/g')
 
 # An entry of the log starts at the margin; the lines that explain it, "Kernel: NAME" among them, are indented. What

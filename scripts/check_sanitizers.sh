@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-suites=${1:-cli,hierarchy,render,io,traverse,primitives,bounds,runtime,scene}
+suites=${1:-cli,build,render,io,traverse,influence,volumes,layout,metrics,tree_image,primitives,bounds,runtime,scene,common}
 
 cmake --preset asan
 cmake --build --preset asan --target boxwood-tests

@@ -21,18 +21,18 @@ INLINE void add_outer(real factor, const Vector* v, Symmetric* m) {
     m->yz = fma(y, v->z, m->yz);
 }
 
-/// Joins `other`, whose points have the share `share` (0 to 1) of the weight of both. Both means have the same reference.
-INLINE void merge_moments(real share, const Moments* other, Moments* m) {
+/// Joins `other`, whose points have the part `weight` (0 to 1) of the weight of both. Both means have the same reference.
+INLINE void merge_moments(real weight, const Moments* other, Moments* m) {
     const Vector between = {other->mean.x - m->mean.x, other->mean.y - m->mean.y, other->mean.z - m->mean.z};
-    add_scaled3(share, &between, &m->mean);
-    const real rest = 1.0f - share;
-    m->covariance.xx = fma(share, other->covariance.xx, rest * m->covariance.xx);
-    m->covariance.yy = fma(share, other->covariance.yy, rest * m->covariance.yy);
-    m->covariance.zz = fma(share, other->covariance.zz, rest * m->covariance.zz);
-    m->covariance.xy = fma(share, other->covariance.xy, rest * m->covariance.xy);
-    m->covariance.xz = fma(share, other->covariance.xz, rest * m->covariance.xz);
-    m->covariance.yz = fma(share, other->covariance.yz, rest * m->covariance.yz);
-    add_outer(share * rest, &between, &m->covariance);
+    add_scaled3(weight, &between, &m->mean);
+    const real rest = 1.0f - weight;
+    m->covariance.xx = fma(weight, other->covariance.xx, rest * m->covariance.xx);
+    m->covariance.yy = fma(weight, other->covariance.yy, rest * m->covariance.yy);
+    m->covariance.zz = fma(weight, other->covariance.zz, rest * m->covariance.zz);
+    m->covariance.xy = fma(weight, other->covariance.xy, rest * m->covariance.xy);
+    m->covariance.xz = fma(weight, other->covariance.xz, rest * m->covariance.xz);
+    m->covariance.yz = fma(weight, other->covariance.yz, rest * m->covariance.yz);
+    add_outer(weight * rest, &between, &m->covariance);
 }
 
 /// The moments under p' = factor * p + shift.

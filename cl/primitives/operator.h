@@ -21,7 +21,7 @@
 #endif
 
 /// Elements that are folded in one go; also the unit that slices are cut in. A power of two, as on the host.
-#define BLOCK 1024u
+#define TILE 1024u
 
 typedef JOIN(SCALAR, 16) Scalar16;
 
@@ -127,7 +127,7 @@ static inline Element fold_rows(global const SCALAR* in, uint rows) {
 #endif
 
 /// The fold of elements [first, last) of `in`; the neutral element when there are none. Whole rows first, then what is
-/// left one by one: at most BLOCK / ROW + ROW elements enter one chain of additions for ranges of up to BLOCK.
+/// left one by one: at most TILE / ROW + ROW elements enter one chain of additions for ranges of up to TILE.
 static inline Element fold(global const SCALAR* in, uint first, uint last) {
     const uint rows = (last - first) / ROW;
     Element total = neutral();

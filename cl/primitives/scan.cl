@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Scan of every block of BLOCK elements, started from what comes before the block (which reduce.cl and this kernel, one
+// Scan of every tile of TILE elements, started from what comes before the tile (which reduce.cl and this kernel, one
 // level up, have computed).
 //
-// Sums of floats that are not negative never fall. Rounding is monotonic, so within a block it is enough that every sum is an
-// earlier one, plus a sum that never falls either. What is before the next block is added up in another order: no sum of
-// a block without negative elements goes above it.
+// Sums of floats that are not negative never fall. Rounding is monotonic, so within a tile it is enough that every sum is an
+// earlier one, plus a sum that never falls either. What is before the next tile is added up in another order: no sum of
+// a tile without negative elements goes above it.
 //
 // GROUP_SIZE                                 work-items per group, 1 or more
 // SCALAR, COMPONENTS, OP_SUM/OP_MIN/OP_MAX   as in primitives/operator.h, COMPONENTS 1 or 4
@@ -80,7 +80,7 @@ static inline Scalar16 scan_step(Scalar16 v, Element* carry) {
 
 static inline int16 below_zero(Scalar16 v) { return v < 0.0f; }
 
-/// Lowers the sums of a whole block, which begins at element `first` of `out`, to `next`, what is before the next block, in
+/// Lowers the sums of a whole tile, which begins at element `first` of `out`, to `next`, what is before the next tile, in
 /// the components that have no lane in `negative`. They do not fall, so those to be lowered are the last ones.
 static inline void limit_sums(global SCALAR* out, Element next, int16 negative, uint first) {
 #if COMPONENTS == 1
@@ -91,11 +91,11 @@ static inline void limit_sums(global SCALAR* out, Element next, int16 negative, 
     const Element limits = select(next, (Element)INFINITY, half_negative.lo | half_negative.hi);
     const Scalar16 limit = (Scalar16)(limits, limits, limits, limits);
 #endif
-    global SCALAR* block = out + (size_t)first * COMPONENTS;
-    for (uint k = BLOCK * COMPONENTS / 16; k-- > 0;) {
-        const Scalar16 sums = vload16(k, block);
+    global SCALAR* tile = out + (size_t)first * COMPONENTS;
+    for (uint k = TILE * COMPONENTS / 16; k-- > 0;) {
+        const Scalar16 sums = vload16(k, tile);
         if (!any(sums > limit)) return;
-        vstore16(SMALLER(sums, limit), k, block);
+        vstore16(SMALLER(sums, limit), k, tile);
     }
 }
 
@@ -107,7 +107,7 @@ static inline void limit_sums(global SCALAR* out, Element next, int16 negative, 
 #endif
 
 /// Fewer than STEP elements, from `first` to the end of the array: the same step, on a copy filled up with neutral
-/// elements. No block follows.
+/// elements. No tile follows.
 static inline void scan_rest(global const SCALAR* in, global SCALAR* out, uint first, uint count, Element carry) {
     SCALAR lanes[16];
     const uint scalars = (count - first) * COMPONENTS;
@@ -118,7 +118,7 @@ static inline void scan_rest(global const SCALAR* in, global SCALAR* out, uint f
 }
 
 /// @pre  `in` and `out` hold `count` > 0 elements and are the same buffer or do not overlap. before[b] is the fold of all
-///       blocks before b, and sums of floats there do not fall unless a block's sum is negative; it is not read for block 0.
+///       tiles before b, and sums of floats there do not fall unless a tile's sum is negative; it is not read for tile 0.
 ///       Slices as in reduce.cl.
 /// @post `out` is the scan of `in`.
 /// A work-item reads each element before it writes it and shares none with others: no barrier, and in place is safe.
@@ -130,8 +130,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void scan(global 
     uint first = slice * length;
     const uint last = first + min(length, count - first);
     while (first < last) {
-        Element carry = first == 0 ? neutral() : LOAD_ELEMENT(before, first / BLOCK);
-        const uint block = first, end = first + min(BLOCK, last - first);
+        Element carry = first == 0 ? neutral() : LOAD_ELEMENT(before, first / TILE);
+        const uint tile = first, end = first + min(TILE, last - first);
         int16 negative = 0;
         for (; end - first >= STEP; first += STEP) {
             const size_t base = (size_t)first * COMPONENTS;
@@ -140,7 +140,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void scan(global 
             vstore16(scan_step(v, &carry), 0, out + base);
         }
         if (first < end) scan_rest(in, out, first, end, carry);
-        if (end < count) limit_sums(out, LOAD_ELEMENT(before, end / BLOCK), negative, block);
+        if (end < count) limit_sums(out, LOAD_ELEMENT(before, end / TILE), negative, tile);
         first = end;
     }
 }

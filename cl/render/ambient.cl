@@ -87,9 +87,9 @@ INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* c
 INLINE mask find_light(const LightArrays* lights, const Vertex* vertex, real choice, Rays* rays, Vector* light) {
     real probability;
     uint index[LANES];
-    LightShares shares;
-    light_shares(&lights->tree, 0.0f, &vertex->origin, &shares);
-    choose_by_shares(&lights->tree, &shares, &vertex->origin, &choice, index, &probability);
+    LightProbabilities probabilities;
+    light_probabilities(&lights->tree, 0.0f, &vertex->origin, &probabilities);
+    choose_any_light(&lights->tree, &probabilities, &vertex->origin, &choice, index, &probability);
     LightSample sample;
     sample_punctual(lights->records, index, &vertex->origin, probability, &sample);
     const real cosine = dot3(&sample.direction, &vertex->point.normal);
@@ -227,7 +227,7 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
     }
 }
 
-/// Adds what is pending: the light where blocked[i] is 0, the ambient light by the share that the next hit does not occlude. The
+/// Adds what is pending: the light where blocked[i] is 0, the ambient light by the fraction that the next hit does not occlude. The
 /// first bounce adds to direct and ambient and sets ao, the others add to indirect. Without LIGHTS `blocked` may be null.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
 ambient_gather(global const uint* blocked, global const Hit* next_hits, global const float* pending, float distance, uint bounce,
@@ -235,7 +235,7 @@ ambient_gather(global const uint* blocked, global const Hit* next_hits, global c
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        const float open = absorbed_share(next_hits[i].t / distance);
+        const float open = absorbed_fraction(next_hits[i].t / distance);
 #if LIGHTS
         const float free = blocked[i] ? 0.0f : 1.0f;
         const float3 light = free * vload3(2 * i, pending);
@@ -281,13 +281,13 @@ occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, 
     }
 }
 
-/// ao[i], and light[3 * i] and the two behind it, = the share that is not occluded.
+/// ao[i], and light[3 * i] and the two behind it, = the fraction that is not occluded.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
 occlusion_light(global const Hit* next_hits, float distance, uint count, uint length, global float* light, global float* ao) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
-        ao[i] = absorbed_share(next_hits[i].t / distance);
+        ao[i] = absorbed_fraction(next_hits[i].t / distance);
         vstore3((float3)(ao[i]), i, light);
     }
 }

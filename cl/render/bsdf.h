@@ -21,7 +21,7 @@ typedef struct Bsdf {
     real f90;      ///< and at grazing.
     real coat;     ///< [0, 1], strength of the dielectric's reflection, which the Lambert lobe lacks.
     real alpha;    ///< Width of the GGX lobe, SMALLEST_ALPHA or more.
-    real share;    ///< Probability of taking the GGX lobe.
+    real mirror_probability;    ///< Probability of taking the GGX lobe.
     real shadow_o; ///< ggx_shadowing of the direction that it is seen from.
 #endif
 } Bsdf;
@@ -46,7 +46,7 @@ INLINE real ggx_shadowing(const Vector* w, real alpha) {
 }
 
 /// Probability of taking the GGX lobe, by what both lobes would reflect to `cosine`.
-INLINE real specular_share(const Bsdf* bsdf, real cosine) {
+INLINE real specular_probability(const Bsdf* bsdf, real cosine) {
     const real weight = schlick_weight(LESSER(cosine, (real)(1.0f)));
     const real f0 = luminance3(&bsdf->f0), scattered = luminance3(&bsdf->diffuse);
     const real mirrored = fma(bsdf->f90 - f0, weight, f0); // the weights of a luminance add up to 1
@@ -65,7 +65,7 @@ INLINE void make_bsdf(const Vector* base_color, real metallic, real roughness, r
     bsdf->f90 = dielectric + metallic;
     bsdf->coat = specular;
     bsdf->alpha = GREATER(roughness * roughness, (real)(SMALLEST_ALPHA));
-    bsdf->share = specular_share(bsdf, wo->z);
+    bsdf->mirror_probability = specular_probability(bsdf, wo->z);
     bsdf->shadow_o = ggx_shadowing(wo, bsdf->alpha);
 #else
     (void)roughness;
@@ -108,7 +108,7 @@ INLINE void evaluate_bsdf(const Bsdf* bsdf, const Vector* wo, const Vector* wi, 
     value->x = fma(fma(f90 - f0.x, weight, f0.x), mirrored, value->x * scattered);
     value->y = fma(fma(f90 - f0.y, weight, f0.y), mirrored, value->y * scattered);
     value->z = fma(fma(f90 - f0.z, weight, f0.z), mirrored, value->z * scattered);
-    *pdf = fma(bsdf->share, half_distribution / (wo->z + bsdf->shadow_o), (1.0f - bsdf->share) * lambert_pdf(wi->z));
+    *pdf = fma(bsdf->mirror_probability, half_distribution / (wo->z + bsdf->shadow_o), (1.0f - bsdf->mirror_probability) * lambert_pdf(wi->z));
 #else
     scale3(wi->z * M_1_PI_F, value);
     *pdf = lambert_pdf(wi->z);
@@ -159,7 +159,7 @@ INLINE void sample_bsdf(const Bsdf* bsdf, const Vector* wo, real choice, real u,
     sincos_turn(u, &sine, &cosine);
     lambert_direction(sine, cosine, v, wi);
 #if SPECULAR
-    const mask mirror = choice < bsdf->share;
+    const mask mirror = choice < bsdf->mirror_probability;
     if (ANY(mirror)) {
         Vector mirrored;
         ggx_direction(wo, bsdf->alpha, sine, cosine, v, &mirrored);

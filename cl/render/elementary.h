@@ -26,7 +26,7 @@ INLINE float log2_of(float x) {
 }
 
 /// 1 - e^-depth: what is lost on a way of a depth of 0 up to infinity, to 1 unit in the last place.
-INLINE float absorbed_share(float depth) {
+INLINE float absorbed_fraction(float depth) {
     const float d = LESSER(depth, 32.0f); // 1 from 17.4 on
     // e^-d = 2^-halvings e^x, |x| up to half of log 2, which is two floats.
     const float halvings = floor(fma(d, 0x1.715476p+0f, 0.5f));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Samples added up, pixel by pixel. A film has FILM_FLOATS floats for each pixel of the picture, in blocks of 8 consecutive
-// pixels: the first float of all 8, the second, ...; the last block is whole. The floats of a pixel are
+// Samples added up, pixel by pixel. A film has FILM_FLOATS floats for each pixel of the picture, in packets of 8 consecutive
+// pixels: the first float of all 8, the second, ...; the last packet is whole. The floats of a pixel are
 //
 //     sum of each of SUMS values, what rounding lost of each sum (Kahan 1965), mean of the luminance, sum of its squared
 //     differences from the mean (Welford 1962), number of samples
 //
 // so that a million samples of one brightness lose no more digits than one. SUMS = 3 * LIGHTS + AO: R, G, B of each part of the
-// light, then the share of the ambient light that is not occluded.
+// light, then the fraction of the ambient light that is not occluded.
 //
 // LIGHTS      1 to 3: parts of the light; their sum is what is seen.
-// AO          1: there is a share of ambient light.
+// AO          1: there is a fraction of ambient light.
 // LANES       1 or 8: pixels at once (runtime/real.h).
 // GROUP_SIZE  work-items per work-group.
 // compile: LIGHTS=1 AO=0 LANES=8
@@ -66,7 +66,7 @@ INLINE void load_part(global const float* part, const uint* index, real* values)
     for (uint c = 0; c < 3; ++c) values[c] = row[c];
 }
 
-/// Adds a sample to the pixels from number `first` on: R, G, B of each part of pixel first + i at [3 * i], its share of ambient
+/// Adds a sample to the pixels from number `first` on: R, G, B of each part of pixel first + i at [3 * i], its fraction of ambient
 /// light at ao[i]. A sample with a value that is NaN, infinite or negative is left out. Parts beyond LIGHTS and, without AO, `ao`
 /// may be null. A work-item takes `length` consecutive pixels, a multiple of LANES; the first one's begin at the last multiple of
 /// LANES up to `first`, and those before are left as they are. No barrier: work-items share nothing.
@@ -93,13 +93,13 @@ film_add(global const float* part0, global const float* part1, global const floa
         load_part(part2, index, values + 6);
 #endif
 #if AO
-        float share[LANES];
-        for (uint lane = 0; lane < LANES; ++lane) share[lane] = ao[index[lane]];
-        values[3 * LIGHTS] = LOAD_LANES(share);
+        float fraction[LANES];
+        for (uint lane = 0; lane < LANES; ++lane) fraction[lane] = ao[index[lane]];
+        values[3 * LIGHTS] = LOAD_LANES(fraction);
 #endif
-        global float* block = film + (size_t)(p / 8) * 8 * FILM_FLOATS + p % 8;
-        for (uint k = 0; k < FILM_FLOATS; ++k) pixel[k] = LOAD_LANES(block + 8 * k);
+        global float* packet = film + (size_t)(p / 8) * 8 * FILM_FLOATS + p % 8;
+        for (uint k = 0; k < FILM_FLOATS; ++k) pixel[k] = LOAD_LANES(packet + 8 * k);
         add_sample(LOAD_LANES(wanted), values, pixel);
-        for (uint k = 0; k < FILM_FLOATS; ++k) STORE_LANES(pixel[k], block + 8 * k);
+        for (uint k = 0; k < FILM_FLOATS; ++k) STORE_LANES(pixel[k], packet + 8 * k);
     }
 }

@@ -27,14 +27,14 @@ typedef struct Pixels {
 
 /// What the planes show of hits, of which at least one is one; anything in the other lanes.
 INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction, const Hits* hits,
-                        float share, Pixels* pixels) {
+                        float fraction, Pixels* pixels) {
     Triangles triangles;
     load_triangles(scene->positions, scene->triangles, scene->meshes, scene->instances, hits, &triangles);
     material_numbers(scene, &triangles, pixels->material);
 #if HAS_SPOTS
     Spot spots[LANES];
     Beam beam;
-    pixel_beam(camera, direction, hits->t, share, &beam);
+    pixel_beam(camera, direction, hits->t, fraction, &beam);
     find_spots(&triangles, pixels->material, direction, hits, &beam, spots);
 #endif
 #if PLANES & 7
@@ -91,7 +91,7 @@ INLINE void clear_pixels(mask condition, Pixels* pixels) {
 /// barriers: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
 g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* rays, global const Hit* hits, uint count,
-         uint length, float share, global float* out_positions, global float* geometric_normals,
+         uint length, float fraction, global float* out_positions, global float* geometric_normals,
          global float* shading_normals, global float* albedos, global float* depths, global float* uv_derivatives,
          global uint* out_materials, global uint* out_instances, global uint* primitives) {
     const SceneArrays scene = SCENE_ARRAYS;
@@ -107,7 +107,7 @@ g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* 
         load_rays(rays, index, &view);
         load_hits(hits, index, &met);
         null_pixels(&pixels);
-        if (ANY(met.some)) find_pixels(&scene, camera, &view.direction, &met, share, &pixels);
+        if (ANY(met.some)) find_pixels(&scene, camera, &view.direction, &met, fraction, &pixels);
         clear_pixels(NOT(met.some), &pixels);
 #if PLANES & 1
         store_vectors(&pixels.position, out_positions, 3, index, used);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A binary tree over the lights of a scene, by which one is chosen for a place (Conty Estevez and Kulla 2018): from the root down,
-// each child with its share of what both may send there, whatever is in between and whichever way the surface faces.
+// each child with its probability of what both may send there, whatever is in between and whichever way the surface faces.
 #ifndef BOXWOOD_RENDER_LIGHT_TREE_H
 #define BOXWOOD_RENDER_LIGHT_TREE_H
 #include "runtime/vector.h"
@@ -14,9 +14,9 @@ typedef struct LightTree {
 } LightTree;
 
 /// How the samples of a place are divided; the sum is 1.
-typedef struct LightShares {
+typedef struct LightProbabilities {
     real environment, distant, near;
-} LightShares;
+} LightProbabilities;
 
 /// What a node may send to a place: (amplitude^2 facing), irradiance on a surface that faces it.
 typedef struct Importance {
@@ -31,7 +31,7 @@ typedef struct Importance {
 #define LEAST_FACING 0x1p-6f
 
 // The least probability of a node that gives light beside one that does.
-#define LEAST_SHARE 0x1p-6f
+#define LEAST_PROBABILITY 0x1p-6f
 
 // What environment, distant and other lights share evenly; the rest goes by irradiance. Walls often keep the brightest of them from
 // a place, and no reflected ray finds a light without extent.
@@ -88,13 +88,13 @@ INLINE real irradiance_of(const Importance* importance) {
 }
 
 /// Probability of `first` beside `second`; 0 or 1 where one alone gives light, one half where numbers do not tell.
-INLINE real first_share(const Importance* first, const Importance* second) {
+INLINE real first_probability(const Importance* first, const Importance* second) {
     const real ratio = second->amplitude / first->amplitude;
     const real found = 1.0f / (1.0f + ratio * ratio * (second->facing / first->facing));
-    const real share = CHOOSE(found >= 0.0f, larger(smaller(found, (real)(1.0f - LEAST_SHARE)), (real)(LEAST_SHARE)),
+    const real probability = CHOOSE(found >= 0.0f, larger(smaller(found, (real)(1.0f - LEAST_PROBABILITY)), (real)(LEAST_PROBABILITY)),
                               (real)(0.5f));
     return CHOOSE(first->gives & NOT(second->gives), (real)(1.0f),
-                  CHOOSE(second->gives & NOT(first->gives), (real)(0.0f), share));
+                  CHOOSE(second->gives & NOT(first->gives), (real)(0.0f), probability));
 }
 
 /// Importance of the children of nodes. Leaves may be named; what they get is of no use.
@@ -135,10 +135,10 @@ INLINE real near_irradiance(const LightTree* tree, const Vector* place) {
 }
 
 /// `environment` is its irradiance, 0 where there is none. A single kind has all samples.
-INLINE void light_shares(const LightTree* tree, float environment, const Vector* place, LightShares* shares) {
+INLINE void light_probabilities(const LightTree* tree, float environment, const Vector* place, LightProbabilities* probabilities) {
     const bool sky = environment > 0.0f, distant = tree->distant != BOXWOOD_NONE, near = tree->near != BOXWOOD_NONE;
-    const LightShares one = {(real)(sky ? 1.0f : 0.0f), (real)(distant ? 1.0f : 0.0f), (real)(near ? 1.0f : 0.0f)};
-    *shares = one;
+    const LightProbabilities one = {(real)(sky ? 1.0f : 0.0f), (real)(distant ? 1.0f : 0.0f), (real)(near ? 1.0f : 0.0f)};
+    *probabilities = one;
     const float kinds = (sky ? 1.0f : 0.0f) + (distant ? 1.0f : 0.0f) + (near ? 1.0f : 0.0f);
     if (kinds < 2.0f) return;
     const float from_afar = distant ? tree->nodes[tree->distant].amplitude : 0.0f;
@@ -148,9 +148,9 @@ INLINE void light_shares(const LightTree* tree, float environment, const Vector*
     const real all = environment + of_distant + of_near;
     const mask known = (all > 0.0f) & (all < INFINITY);
     const real even = 1.0f / kinds;
-    shares->environment *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (environment / all), even);
-    shares->distant *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_distant / all), even);
-    shares->near *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_near / all), even);
+    probabilities->environment *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (environment / all), even);
+    probabilities->distant *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_distant / all), even);
+    probabilities->near *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_near / all), even);
 }
 
 /// Chooses a light below `root`. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(depth of the tree). Any
@@ -162,10 +162,10 @@ INLINE void choose_light(const LightTree* tree, const uint* root, const Vector* 
     for (mask descends = LOAD_LANES(node) < tree->inner; ANY(descends);) {
         Importance importance, other;
         children_of(tree, node, place, first, second, &importance, &other);
-        const real share = first_share(&importance, &other);
-        const mask is_first = *u < share;
-        const real chosen = CHOOSE(is_first, share, 1.0f - share);
-        const real rest = smaller(CHOOSE(is_first, *u, *u - share) / chosen, (real)(BEFORE_ONE));
+        const real of_first = first_probability(&importance, &other);
+        const mask is_first = *u < of_first;
+        const real chosen = CHOOSE(is_first, of_first, 1.0f - of_first);
+        const real rest = smaller(CHOOSE(is_first, *u, *u - of_first) / chosen, (real)(BEFORE_ONE));
         *u = CHOOSE(descends, rest, *u);
         *probability = CHOOSE(descends, *probability * chosen, *probability);
         descends = go_down(tree, is_first, first, second, node);
@@ -183,8 +183,8 @@ INLINE real near_probability(const LightTree* tree, const uint* light, const Vec
             parent[lane] = node[lane] == tree->near ? node[lane] : tree->nodes[node[lane]].parent;
         Importance importance, other;
         children_of(tree, parent, place, first, second, &importance, &other);
-        const real share = first_share(&importance, &other);
-        const real chosen = CHOOSE(LOAD_LANES(first) == LOAD_LANES(node), share, 1.0f - share);
+        const real of_first = first_probability(&importance, &other);
+        const real chosen = CHOOSE(LOAD_LANES(first) == LOAD_LANES(node), of_first, 1.0f - of_first);
         probability = CHOOSE(ascends, probability * chosen, probability);
         for (uint lane = 0; lane < LANES; ++lane) node[lane] = parent[lane];
     }

@@ -129,7 +129,7 @@ inline float3 lamp_texture_at(const SceneArrays* scene, uint instance, uint prim
     factor *= texture_at(scene, &spot, material->textures + BOXWOOD_EMISSION).xyz;
 #endif
 #if ALPHA
-    factor *= stopped_share(material, color_at(scene, &spot).w);
+    factor *= stopped_fraction(material, color_at(scene, &spot).w);
 #endif
     return factor;
 }
@@ -193,7 +193,7 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
 }
 
 /// Density, by solid angle, with which sample_light draws, for `origin`, the place that a ray from there met after `distance` at an
-/// angle of `cosine`, but for the share of lights that are near; 0 where a lane's triangle is no light. O(log lights): triangles are
+/// angle of `cosine`, but for the probability of lights that are near; 0 where a lane's triangle is no light. O(log lights): triangles are
 /// ordered by instance and primitive, after the lights without extent, which have no instance.
 INLINE real triangle_pdf(const LightArrays* lights, const Vector* origin, const uint* instance, const uint* primitive,
                          real distance, real cosine) {
@@ -228,27 +228,27 @@ INLINE real triangle_pdf(const LightArrays* lights, const Vector* origin, const 
 }
 #endif
 
-/// Chooses among all lights by u in [0, shares->distant + shares->near), which becomes what is left of it, uniform in [0, 1); also the
+/// Chooses among all lights by u in [0, probabilities->distant + probabilities->near), which becomes what is left of it, uniform in [0, 1); also the
 /// light's probability among all samples. Any u gives a light.
-INLINE void choose_by_shares(const LightTree* tree, const LightShares* shares, const Vector* origin, real* u, uint* index,
+INLINE void choose_any_light(const LightTree* tree, const LightProbabilities* probabilities, const Vector* origin, real* u, uint* index,
                              real* probability) {
-    mask distant = *u < shares->distant;
+    mask distant = *u < probabilities->distant;
     if (tree->distant == BOXWOOD_NONE || tree->near == BOXWOOD_NONE) distant = (mask)(tree->near == BOXWOOD_NONE ? -1 : 0);
-    const real share = CHOOSE(distant, shares->distant, shares->near);
-    *u = smaller(larger(CHOOSE(distant, *u, *u - shares->distant) / share, (real)(0.0f)), (real)(BEFORE_ONE));
+    const real of_kind = CHOOSE(distant, probabilities->distant, probabilities->near);
+    *u = smaller(larger(CHOOSE(distant, *u, *u - probabilities->distant) / of_kind, (real)(0.0f)), (real)(BEFORE_ONE));
     uint root[LANES];
     STORE_LANES(CHOOSE(distant, (whole)(tree->distant), (whole)(tree->near)), root);
     choose_light(tree, root, origin, u, index, probability);
-    *probability *= share;
+    *probability *= of_kind;
 }
 
-/// Light on `origin`: u, see choose_by_shares, and v in [0, 1), a point of one pattern, take the light and the place on it, so that
+/// Light on `origin`: u, see choose_any_light, and v in [0, 1), a point of one pattern, take the light and the place on it, so that
 /// the lights share the pattern's evenness; `low_bits` in [0, 1) is what u loses where lights are many.
-INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const LightShares* shares, const Vector* origin,
+INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const LightProbabilities* probabilities, const Vector* origin,
                          real u, real v, real low_bits, LightSample* sample) {
     uint index[LANES];
     real probability;
-    choose_by_shares(&lights->tree, shares, origin, &u, index, &probability);
+    choose_any_light(&lights->tree, probabilities, origin, &u, index, &probability);
     u = smaller(fma(low_bits, smaller(0x1p-24f / probability, (real)(1.0f)), u), (real)(BEFORE_ONE));
     Light light;
     load_lights(lights->records, index, &light);

@@ -85,9 +85,9 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
 #if ALPHA
     const Paths before = *paths;
     const Rays rays_before = *rays;
-    real chance, unused;
-    sample_square(&sampler, ALPHA_DIMENSION + paths->layers, &chance, &unused);
-    const mask passes = met & (vertex.point.alpha < 1.0f) & (chance >= vertex.point.alpha);
+    real probability, unused;
+    sample_square(&sampler, ALPHA_DIMENSION + paths->layers, &probability, &unused);
+    const mask passes = met & (vertex.point.alpha < 1.0f) & (probability >= vertex.point.alpha);
     met &= NOT(passes);
 #endif
     Vector light;

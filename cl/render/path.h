@@ -70,28 +70,28 @@ INLINE real power_heuristic(real pdf, real other) {
 }
 
 /// How samples towards light are divided at a place.
-INLINE void find_shares(const PathWorld* world, const Vector* place, LightShares* shares) {
-    const LightShares sky = {(real)(SAMPLE_ENVIRONMENT ? 1.0f : 0.0f), (real)(0.0f), (real)(0.0f)};
-    *shares = sky;
+INLINE void find_shares(const PathWorld* world, const Vector* place, LightProbabilities* probabilities) {
+    const LightProbabilities sky = {(real)(SAMPLE_ENVIRONMENT ? 1.0f : 0.0f), (real)(0.0f), (real)(0.0f)};
+    *probabilities = sky;
 #if LIGHTS && SAMPLE_ENVIRONMENT
-    light_shares(&world->lights.tree, drawn_irradiance(&world->environment), place, shares);
+    light_probabilities(&world->lights.tree, drawn_irradiance(&world->environment), place, probabilities);
 #elif LIGHTS
-    light_shares(&world->lights.tree, 0.0f, place, shares);
+    light_probabilities(&world->lights.tree, 0.0f, place, probabilities);
 #endif
     (void)world;
     (void)place;
 }
 
-/// Radiance that comes along rays which met nothing, by its share among the strategies.
+/// Radiance that comes along rays which met nothing, by its fraction among the strategies.
 INLINE void sky_light(const PathWorld* world, const Rays* rays, mask first, real pdf, Vector* light) {
 #if ENVIRONMENT
     real other;
     environment_light(&world->environment, &rays->direction, light, &other);
 #if STRATEGY == 0
     if (ANY(NOT(first))) {
-        LightShares shares;
-        find_shares(world, &rays->origin, &shares);
-        scale3(CHOOSE(first, (real)(1.0f), power_heuristic(pdf, shares.environment * other)), light);
+        LightProbabilities probabilities;
+        find_shares(world, &rays->origin, &probabilities);
+        scale3(CHOOSE(first, (real)(1.0f), power_heuristic(pdf, probabilities.environment * other)), light);
     }
 #elif STRATEGY == 1
     scale3(CHOOSE(first, (real)(1.0f), (real)(0.0f)), light);
@@ -106,7 +106,7 @@ INLINE void sky_light(const PathWorld* world, const Rays* rays, mask first, real
     (void)pdf;
 }
 
-/// Radiance that surfaces send back along rays, by its share among the strategies.
+/// Radiance that surfaces send back along rays, by its fraction among the strategies.
 INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Rays* rays, const Hits* hits, mask first,
                           real pdf, Vector* light) {
     *light = point->emission;
@@ -114,10 +114,10 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
     const mask shared = bright(light) & NOT(first);
     if (ANY(shared)) {
         const real cosine = -dot3(&rays->direction, &point->surface.normal);
-        LightShares shares;
-        find_shares(world, &rays->origin, &shares);
+        LightProbabilities probabilities;
+        find_shares(world, &rays->origin, &probabilities);
         const real other =
-            shares.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
+            probabilities.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
 #if STRATEGY == 0
         scale3(CHOOSE(shared, power_heuristic(pdf, other), (real)(1.0f)), light);
 #else
@@ -149,20 +149,20 @@ INLINE mask may_shine(const SceneArrays* scene, const Hits* hits) {
 #if NEXT_EVENT
 /// Shadow rays and the light that they stand for, chosen by u and v (see sample_light). Returns where there is one.
 INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, real v, real low_bits, Rays* rays, Vector* light) {
-    LightShares shares;
-    find_shares(world, &vertex->origin, &shares);
+    LightProbabilities probabilities;
+    find_shares(world, &vertex->origin, &probabilities);
     LightSample sample;
 #if LIGHTS
-    sample_light(&world->scene, &world->lights, &shares, &vertex->origin, u - shares.environment, v, low_bits, &sample);
+    sample_light(&world->scene, &world->lights, &probabilities, &vertex->origin, u - probabilities.environment, v, low_bits, &sample);
 #else
     (void)low_bits;
 #endif
 #if SAMPLE_ENVIRONMENT
-    const mask distant = (u < shares.environment) | (mask)(LIGHTS ? 0 : -1);
+    const mask distant = (u < probabilities.environment) | (mask)(LIGHTS ? 0 : -1);
     LightSample sky;
-    sample_environment(&world->environment, &vertex->point.normal, smaller(u / shares.environment, (real)(BEFORE_ONE)), v,
+    sample_environment(&world->environment, &vertex->point.normal, smaller(u / probabilities.environment, (real)(BEFORE_ONE)), v,
                        &sky.direction, &sky.value, &sky.pdf);
-    sky.pdf *= shares.environment;
+    sky.pdf *= probabilities.environment;
     scale3(1.0f / sky.pdf, &sky.value);
 #if LIGHTS
     choose3(distant, &sky.direction, &sample.segment);
@@ -214,7 +214,7 @@ INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, co
     paths->bounces += 1;
     const mask at_risk = goes_on & (paths->bounces >= ROULETTE_BOUNCE) & (largest < 1.0f);
     if (ANY(at_risk)) {
-        // A multiple of the spacing of samples, so that it is the chance to survive; and not so small that few carry much.
+        // A multiple of the spacing of samples, so that it is the probability to survive; and not so small that few carry much.
         const real survival = larger(ceil(largest * 0x1p24f) * 0x1p-24f, (real)(0x1p-4f));
         sample_square(sampler, dimension + ROULETTE_DIMENSION, &u, &v);
         goes_on &= NOT(at_risk & (u >= survival));

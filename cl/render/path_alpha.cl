@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shadow rays through surfaces that let light pass: each hit takes its share, and the ray goes on behind it. Macros:
+// Shadow rays through surfaces that let light pass: each hit takes its fraction, and the ray goes on behind it. Macros:
 // render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
 //
 // LANES       1
@@ -15,19 +15,19 @@
 #error "define GROUP_SIZE and LANES (1)"
 #endif
 
-/// The share of light that the surface at a hit lets pass; textures at their finest.
-INLINE float passed_share(const SceneArrays* scene, Hit hit) {
+/// The fraction of light that the surface at a hit lets pass; textures at their finest.
+INLINE float passed_fraction(const SceneArrays* scene, Hit hit) {
     Spot spot;
     spot_of(scene, hit.instance, hit.primitive, hit.u, hit.v, &spot);
     global const MaterialRecord* material = scene->materials + spot.material;
     if (!(material->flags & (BOXWOOD_ALPHA_MASK | BOXWOOD_ALPHA_BLEND))) return 0.0f;
-    return 1.0f - stopped_share(material, color_at(scene, &spot).w);
+    return 1.0f - stopped_fraction(material, color_at(scene, &spot).w);
 }
 
-/// All of the light or none, by chance: `share` of it on average.
-INLINE float share_by_chance(float share, ulong seed, uint pixel, uint sample, uint round, uint layer) {
+/// All of the light or none: `fraction` of it on average.
+INLINE float russian_roulette(float fraction, ulong seed, uint pixel, uint sample, uint round, uint layer) {
     const ulong key = random_bits(random_bits(random_key(seed, pixel), sample), round);
-    return (float)(random_bits(key, layer) >> 40) * 0x1p-24f < share ? 1.0f : 0.0f;
+    return (float)(random_bits(key, layer) >> 40) * 0x1p-24f < fraction ? 1.0f : 0.0f;
 }
 
 /// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of which
@@ -50,9 +50,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows
             add_shadow_light(lights + i, direct, indirect);
             continue;
         }
-        float passed = passed_share(&scene, hit);
+        float passed = passed_fraction(&scene, hit);
         if (layer >= BOXWOOD_SURE_LAYERS)
-            passed = share_by_chance(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
+            passed = russian_roulette(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
         if (!(passed > 0.0f)) continue;
         vstore3(vload3(0, light.value) * passed, 0, light.value);
         Ray ray = rays[i];

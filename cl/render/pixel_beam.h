@@ -5,10 +5,10 @@
 #include "render/shading_point.h"
 #include "shared/camera.h"
 
-/// Where the camera's rays along `direction` meet surfaces at distances t, `share` of a pixel wide. The directions are between
+/// Where the camera's rays along `direction` meet surfaces at distances t, `fraction` of a pixel wide. The directions are between
 /// rays that are not normalised, so that the image plane lies along the camera's axis.
-INLINE void pixel_beam(global const CameraRecord* camera, const Vector* direction, real t, float share, Beam* beam) {
-    real width = 2.0f * share;
+INLINE void pixel_beam(global const CameraRecord* camera, const Vector* direction, real t, float fraction, Beam* beam) {
+    real width = 2.0f * fraction;
     Vector forward;
     spread3(vload3(0, camera->forward), &forward);
     if (camera->perspective) width *= t * dot3(direction, &forward);

@@ -44,14 +44,14 @@ INLINE void draw_pixel(global const ScreenTriangle* triangle, global const Insta
     to_object_space(&world_ray, place, &local_ray);
 #endif
     Shear shear;
-    Crossing crossing;
+    TriangleHit found;
     make_shear(&local_ray, &shear);
-    if (!ray_triangle(&local_ray, &shear, &triangle->surface, t_min, t_max, &crossing)) return;
-    const float t = caller_distance(ray, &units, crossing.t);
+    if (!ray_triangle(&local_ray, &shear, &triangle->surface, t_min, t_max, &found)) return;
+    const float t = caller_distance(ray, &units, found.t);
     if (!(t < hit->t)) return;
     hit->t = t;
-    hit->u = crossing.u;
-    hit->v = crossing.v;
+    hit->u = found.u;
+    hit->v = found.v;
     hit->primitive = triangle->surface.primitive;
     hit->instance = triangle->instance;
 }

@@ -317,7 +317,7 @@ INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* 
         light_spot(spots + lane, &spot);
         if (spot.exact_light) alpha[lane] = color_at(scene, &spot).w;
 #endif
-        alpha[lane] = stopped_share(scene->materials + material[lane], alpha[lane]);
+        alpha[lane] = stopped_fraction(scene->materials + material[lane], alpha[lane]);
     }
     point->alpha = LOAD_LANES(alpha);
 }

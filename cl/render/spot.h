@@ -92,8 +92,8 @@ INLINE float4 color_at(const SceneArrays* scene, const Spot* spot) {
     return clamp(color, 0.0f, 1.0f);
 }
 
-/// What the alpha mode makes of an alpha: the share of the light that is stopped.
-INLINE float stopped_share(global const MaterialRecord* material, float alpha) {
+/// What the alpha mode makes of an alpha: the fraction of the light that is stopped.
+INLINE float stopped_fraction(global const MaterialRecord* material, float alpha) {
     if (material->flags & BOXWOOD_ALPHA_BLEND) return alpha;
     if (material->flags & BOXWOOD_ALPHA_MASK) return alpha < material->alpha_cutoff ? 0.0f : 1.0f;
     return 1.0f;

@@ -122,10 +122,10 @@ inline float4 bilinear(global const TextureRecord* texture, const Level* level, 
     return mix_float4(above, below, y - top);
 }
 
-/// The two levels around a level of detail, and the share of the second.
+/// The two levels around a level of detail, and the fraction of the second.
 typedef struct Levels {
     Level fine, coarse;
-    float share;
+    float fraction;
 } Levels;
 
 /// For texels of `width` times those of level 0.
@@ -133,7 +133,7 @@ inline void find_levels(global const TextureRecord* texture, global const uint* 
     const uint last = texture->levels - 1;
     const float detail = clamp(log2_of(width), 0.0f, (float)last);
     const uint number = (uint)detail;
-    levels->share = detail - (float)number;
+    levels->fraction = detail - (float)number;
     find_level(texture, texels, number, &levels->fine);
     levels->coarse = levels->fine;
     if (number < last) find_level(texture, texels, number + 1, &levels->coarse);
@@ -142,7 +142,7 @@ inline void find_levels(global const TextureRecord* texture, global const uint* 
 inline float4 trilinear(global const TextureRecord* texture, const Levels* levels, float2 uv) {
     const float2 wrapped = wrap_coordinates(texture, uv);
     const float4 fine = bilinear(texture, &levels->fine, wrapped);
-    return levels->share > 0.0f ? mix_float4(fine, bilinear(texture, &levels->coarse, wrapped), levels->share) : fine;
+    return levels->fraction > 0.0f ? mix_float4(fine, bilinear(texture, &levels->coarse, wrapped), levels->fraction) : fine;
 }
 
 /// The ellipse into which the two vectors take a circle as wide as they: its axes in texels of level 0, and the longer one as a

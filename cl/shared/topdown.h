@@ -31,7 +31,7 @@ typedef struct LargeNode {
     uint tree;
     uint first_chunk;
     uint left_count;
-    uint cut;         ///< 4 * slice + axis: primitives in slices below go left.
+    uint cut;         ///< 4 * bin + axis: primitives in bins below go left.
 } LargeNode;
 BOXWOOD_SHARED_SIZE(LargeNode, 96)
 

@@ -16,7 +16,7 @@
 
 /// Each work-item traces `slice` consecutive rays.
 ///
-/// @pre  A valid, not empty tree within the stack bound of walk.h, all of it in `sphere`. `top_nodes` and `instances` are
+/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and `instances` are
 ///       read for two levels only, `areas`, `area_nodes` and `area_items` for areas only; otherwise they may be null.
 /// @post hits[i] is 1 when rays[i] hits something, else 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
@@ -25,25 +25,17 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
     global const uint* area_items, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere, global uint* hits) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
-    const Arrays arrays = {nodes, (global const char*)leaves, sizeof(leaf_t)};
-#if LEVELS == 2
-    const Arrays top = {top_nodes, (global const char*)instances, sizeof(InstanceRecord)};
+    const TracedTree tree = {
+        {nodes, (global const char*)leaves, sizeof(leaf_t)},
+        {top_nodes, (global const char*)instances, sizeof(InstanceRecord)},
+#if AREAS
+        {areas, area_nodes, area_items},
 #endif
+        sphere};
     for (uint i = first; i < last; ++i) {
-        Walk walk;
-        entry_t stack[STACK_SIZE];
-        LocalRay ray;
+        TraversalState state;
         Units units;
-        if (begin_walk(&rays[i], &sphere, &ray, &units, &walk)) {
-#if LEVELS == 2
-            traverse_top(&ray, &top, &arrays, &walk, stack);
-#elif AREAS
-            const Areas area_arrays = {areas, area_nodes, area_items};
-            traverse_areas(&ray, &units, &area_arrays, &arrays, &walk, stack);
-#else
-            traverse_bottom(&ray, &arrays, 0, 0, &walk, stack);
-#endif
-        }
-        hits[i] = walk.primitive != BOXWOOD_NONE ? 1 : 0;
+        trace(&rays[i], &tree, &units, &state);
+        hits[i] = state.primitive != BOXWOOD_NONE ? 1 : 0;
     }
 }

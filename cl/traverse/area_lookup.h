@@ -2,7 +2,7 @@
 // Which influence area answers a ray, and how far.
 #ifndef BOXWOOD_TRAVERSE_AREA_LOOKUP_H
 #define BOXWOOD_TRAVERSE_AREA_LOOKUP_H
-#include "hierarchy/influence.h"
+#include "influence/influence.h"
 #include "shared/area.h"
 
 /// The areas of a tree and their index; see shared/area.h.

@@ -20,7 +20,7 @@
 
 /// Each work-item traces `slice` consecutive rays; a ray's work is not known beforehand, so slices are short and many.
 ///
-/// @pre  A valid, not empty tree within the stack bound of walk.h, all of it in `sphere`. `top_nodes` and `instances` are
+/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and `instances` are
 ///       read for two levels only, `areas`, `area_nodes` and `area_items` for areas only, `first_triangles` (instance_count
 ///       + 1 entries) for flattened trees only, `statistics` is written for statistics only; otherwise they may be null.
 /// @post hits[i] is the answer for rays[i]: the smallest t, then the lowest (instance, primitive).
@@ -32,34 +32,26 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
     global RayStatistics* statistics) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
-    const Arrays arrays = {nodes, (global const char*)leaves, sizeof(leaf_t)};
-#if LEVELS == 2
-    const Arrays top = {top_nodes, (global const char*)instances, sizeof(InstanceRecord)};
+    const TracedTree tree = {
+        {nodes, (global const char*)leaves, sizeof(leaf_t)},
+        {top_nodes, (global const char*)instances, sizeof(InstanceRecord)},
+#if AREAS
+        {areas, area_nodes, area_items},
 #endif
+        sphere};
     for (uint i = first; i < last; ++i) {
-        Walk walk;
-        entry_t stack[STACK_SIZE];
-        LocalRay ray;
+        TraversalState state;
         Units units;
-        if (begin_walk(&rays[i], &sphere, &ray, &units, &walk)) {
-#if LEVELS == 2
-            traverse_top(&ray, &top, &arrays, &walk, stack);
-#elif AREAS
-            const Areas area_arrays = {areas, area_nodes, area_items};
-            traverse_areas(&ray, &units, &area_arrays, &arrays, &walk, stack);
-#else
-            traverse_bottom(&ray, &arrays, 0, 0, &walk, stack);
-#endif
-        }
+        trace(&rays[i], &tree, &units, &state);
 #if FLATTENED
-        if (walk.primitive != BOXWOOD_NONE) {
-            walk.instance = segment_of(first_triangles, instance_count, walk.primitive);
-            walk.primitive -= first_triangles[walk.instance];
+        if (state.primitive != BOXWOOD_NONE) {
+            state.instance = segment_of(first_triangles, instance_count, state.primitive);
+            state.primitive -= first_triangles[state.instance];
         }
 #endif
-        end_walk(&rays[i], &units, &walk, &hits[i]);
+        end_traversal(&rays[i], &units, &state, &hits[i]);
 #if STATISTICS
-        statistics[i] = walk.statistics;
+        statistics[i] = state.statistics;
 #endif
     }
 }

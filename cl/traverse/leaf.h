@@ -22,8 +22,8 @@ typedef float real_t;
 #endif
 
 /// Where a ray meets the planes of the triangles of a leaf.
-typedef struct Crossing {
+typedef struct TriangleHit {
     real_t t, u, v; ///< u and v are the weights of the second and third vertex.
-} Crossing;
+} TriangleHit;
 
 #endif

@@ -20,7 +20,7 @@ INLINE void make_shear(const LocalRay* ray, Shear* shear) {
 /// As ray_triangle of ray_triangle.h. Triangles whose two edges are parallel or zero are never hit: the two products in each
 /// component of the normal are then equal and rounded alike, so the normal is exactly zero, and so is the determinant.
 INLINE uint ray_triangle(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, float t_min, float t_max,
-                         Crossing* crossing) {
+                         TriangleHit* hit) {
     (void)shear;
     const real_t v0_x = COORDINATE(0, 0), v0_y = COORDINATE(0, 1), v0_z = COORDINATE(0, 2);
     const real_t edge1_x = COORDINATE(1, 0) - v0_x, edge1_y = COORDINATE(1, 1) - v0_y, edge1_z = COORDINATE(1, 2) - v0_z;
@@ -51,11 +51,11 @@ INLINE uint ray_triangle(const LocalRay* ray, const Shear* shear, global const l
     // The normal is divided first, so that no product of three lengths is formed. Where that overflows or gives NaN,
     // t is not in (t_min, t_max], as t_max is finite.
     const real_t inverse = 1.0f / determinant;
-    crossing->t = fma(to_v0_x, normal_x * inverse,
+    hit->t = fma(to_v0_x, normal_x * inverse,
                       fma(to_v0_y, normal_y * inverse, to_v0_z * (normal_z * inverse)));
-    crossing->u = scaled_u * fabs(inverse);
-    crossing->v = scaled_v * fabs(inverse);
-    return inside & HOLDING((crossing->t > t_min) & (crossing->t <= t_max));
+    hit->u = scaled_u * fabs(inverse);
+    hit->v = scaled_v * fabs(inverse);
+    return inside & HOLDING((hit->t > t_min) & (hit->t <= t_max));
 }
 
 #endif

@@ -40,7 +40,7 @@ INLINE bool is_leaf(const MarkedTree* tree, uint node, uint* first, uint* last) 
     return true;
 }
 
-INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, const Walk* walk, entry_t* stack,
+INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, const TraversalState* state, entry_t* stack,
                      RayVisits* visits) {
     uint top = 0;
     stack[top++] = root;
@@ -48,7 +48,7 @@ INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, con
         const uint node = (uint)stack[--top];
         float entry;
         uint first, last;
-        if (!ray_box(ray, &tree->volumes[node], walk->t_min, walk->t_max, &entry)) continue;
+        if (!ray_box(ray, &tree->volumes[node], state->t_min, state->t_max, &entry)) continue;
         if (is_leaf(tree, node, &first, &last)) {
             visits->primitives += last - first + 1;
             continue;
@@ -61,35 +61,35 @@ INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, con
 }
 
 /// The nearer child met is next; of equally near ones the left.
-INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node, Walk* walk, entry_t* stack) {
+INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node, TraversalState* state, entry_t* stack) {
     const uint2 below = tree->children[node];
     float left_entry, right_entry;
-    const bool left = ray_box(ray, &tree->volumes[below.x], walk->t_min, walk->t_max, &left_entry);
-    const bool right = ray_box(ray, &tree->volumes[below.y], walk->t_min, walk->t_max, &right_entry);
+    const bool left = ray_box(ray, &tree->volumes[below.x], state->t_min, state->t_max, &left_entry);
+    const bool right = ray_box(ray, &tree->volumes[below.y], state->t_min, state->t_max, &right_entry);
     if (left && right) {
         const bool left_first = left_entry <= right_entry;
-        stack[walk->top++] = left_first ? ENTRY_OF(right_entry, below.y) : ENTRY_OF(left_entry, below.x);
+        stack[state->top++] = left_first ? ENTRY_OF(right_entry, below.y) : ENTRY_OF(left_entry, below.x);
         return left_first ? below.x : below.y;
     }
     if (left) return below.x;
     return right ? below.y : BOXWOOD_NONE;
 }
 
-INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, Walk* walk, entry_t* stack, RayVisits* visits) {
+INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, TraversalState* state, entry_t* stack, RayVisits* visits) {
     float entry;
     Shear shear;
     make_shear(ray, &shear);
-    uint node = ray_box(ray, &tree->volumes[root], walk->t_min, walk->t_max, &entry) ? root : BOXWOOD_NONE;
+    uint node = ray_box(ray, &tree->volumes[root], state->t_min, state->t_max, &entry) ? root : BOXWOOD_NONE;
     while (node != BOXWOOD_NONE) {
         uint first, last;
         if (is_leaf(tree, node, &first, &last)) {
             visits->primitives_to_hit += last - first + 1;
-            for (uint i = first; i <= last; ++i) visit_leaf(ray, &shear, &tree->triangles[i], 0, walk);
-            node = next_reference(walk, stack, 0);
+            for (uint i = first; i <= last; ++i) visit_leaf(ray, &shear, &tree->triangles[i], 0, state);
+            node = next_reference(state, stack, 0);
         } else {
             visits->nodes_to_hit += 1;
-            node = nearer_child(tree, ray, node, walk, stack);
-            if (node == BOXWOOD_NONE) node = next_reference(walk, stack, 0);
+            node = nearer_child(tree, ray, node, state, stack);
+            if (node == BOXWOOD_NONE) node = next_reference(state, stack, 0);
         }
     }
 }
@@ -105,16 +105,16 @@ void ray_visits(global const uint2* children, global const uint* far_ends, globa
     const MarkedTree tree = {children, far_ends, leaves, volumes, triangles, count};
     const uint root = count == 1 ? 1 : 0;
     for (uint i = begin; i < end; ++i) {
-        Walk walk;
+        TraversalState state;
         entry_t stack[STACK_SIZE];
         LocalRay ray;
         Units units;
         RayVisits visits = {0, 0, 0, 0};
-        if (begin_walk(&rays[i], &sphere, &ray, &units, &walk)) {
-            meet_all(&tree, &ray, root, &walk, stack, &visits);
-            search(&tree, &ray, root, &walk, stack, &visits);
+        if (begin_traversal(&rays[i], &sphere, &ray, &units, &state)) {
+            meet_all(&tree, &ray, root, &state, stack, &visits);
+            search(&tree, &ray, root, &state, stack, &visits);
         }
         all_visits[i] = visits;
-        end_walk(&rays[i], &units, &walk, &hits[i]);
+        end_traversal(&rays[i], &units, &state, &hits[i]);
     }
 }

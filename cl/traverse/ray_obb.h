@@ -23,7 +23,7 @@
 //   (2.5 ulp <= 5u), and the distance of a hit is off by 8u: the factor 1 -/+ 20u of local_ray.h is enough, as there. It is on
 //   the numerator, so that an entry overflows only where the exact one does.
 // - A hit lies beside the ray by 2u of its way, along every axis (ray_triangle.h), which the 8u T_k have room for, and by some of
-//   its triangle's extent, which the boxes are padded by (hit_error, hierarchy/obb_node.h).
+//   its triangle's extent, which the boxes are padded by (hit_error, volumes/obb_node.h).
 //
 // What overflows, or is NaN for that, is an infinite extent or a candidate that is ignored: no hit is lost. A false hit is
 // one of a box whose slab k is wider by at most 2^-20 (e_k + S_k + t T_k) and 2^-122 where the ray meets it.

@@ -81,10 +81,10 @@ INLINE real_t edge_function(real_t p, real_t q, real_t r, real_t s) {
     return fma(p, q, -product) - fma(r, s, -product);
 }
 
-/// Bit i of the result says that triangle i is hit with t_min < t <= t_max; then lane i of *crossing holds where. A triangle of
+/// Bit i of the result says that triangle i is hit with t_min < t <= t_max; then lane i of *hit holds where. A triangle of
 /// three equal vertices, and one that the ray sees edge-on, is never hit: all three edge functions are 0 where 0 is on all edges.
 INLINE uint ray_triangle(const LocalRay* ray, const Shear* s, global const leaf_t* leaf, float t_min, float t_max,
-                         Crossing* crossing) {
+                         TriangleHit* hit) {
     (void)ray;
     // From the vertices to the origin: straight from memory, without a load before. Products of two do not see the sign.
     const real_t z0 = s->origin_z - COORDINATE(0, s->z);
@@ -113,11 +113,11 @@ INLINE uint ray_triangle(const LocalRay* ray, const Shear* s, global const leaf_
     const real_t weighted = fma(depth0, sum, fma(edge1, depth1 - depth0, edge2 * (depth2 - depth0)));
     const real_t within = LESSER(GREATER(weighted, LESSER(end, other_end)), GREATER(end, other_end));
     const real_t inverse = 1.0f / sum;
-    crossing->t = within / (sum * s->minus_depth);
-    crossing->u = edge1 * inverse;
-    crossing->v = edge2 * inverse;
+    hit->t = within / (sum * s->minus_depth);
+    hit->u = edge1 * inverse;
+    hit->v = edge2 * inverse;
     return inside &
-           HOLDING((fabs(sum) >= LEAST_AREA) & (crossing->t > t_min) & (crossing->t <= t_max));
+           HOLDING((fabs(sum) >= LEAST_AREA) & (hit->t > t_min) & (hit->t <= t_max));
 }
 
 #endif

@@ -5,7 +5,7 @@
 #include "runtime/prefetch.h"
 #include "traverse/ray_box.h"
 #include "traverse/ray_obb.h"
-#include "traverse/walk.h"
+#include "traverse/traversal_state.h"
 
 // Exchanges two entries when the first is farther, without a branch.
 #define ORDER(near_entry, far_entry)                        \
@@ -28,13 +28,13 @@ INLINE entry_t child_entry(global const node_t* node, const float* distance, uin
 }
 
 /// The nearest child met, the others left on the stack from far to near. BOXWOOD_NONE when none is met.
-INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Walk* walk, entry_t* stack) {
+INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, TraversalState* state, entry_t* stack) {
     global const node_t* node = &arrays->nodes[index];
 #if STATISTICS
-    walk->statistics.volumes += node->count;
+    state->statistics.volumes += node->count;
 #endif
     float8 entries;
-    uint met = ray_box8(ray, node, walk->t_min, walk->t_max, &entries);
+    uint met = ray_box8(ray, node, state->t_min, state->t_max, &entries);
     if (met == 0) return BOXWOOD_NONE;
     uint lane = first_lane(met);
     met &= met - 1;
@@ -48,25 +48,25 @@ INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Wa
     met &= met - 1;
     entry_t farthest = child_entry(node, distance, lane, arrays);
     ORDER(nearest, farthest);
-    const uint bottom = walk->top;
+    const uint bottom = state->top;
     if (met != 0) {
         lane = first_lane(met);
         met &= met - 1;
         entry_t middle = child_entry(node, distance, lane, arrays);
         ORDER(middle, farthest);
         ORDER(nearest, middle);
-        stack[walk->top++] = farthest;
+        stack[state->top++] = farthest;
         for (; met != 0; met &= met - 1) {
             entry_t other = child_entry(node, distance, first_lane(met), arrays);
             ORDER(middle, other);
             ORDER(nearest, middle);
-            uint place = walk->top++;
+            uint place = state->top++;
             for (; place > bottom && stack[place - 1] < other; --place) stack[place] = stack[place - 1];
             stack[place] = other;
         }
         farthest = middle;
     }
-    stack[walk->top++] = farthest;
+    stack[state->top++] = farthest;
     return (uint)nearest;
 }
 
@@ -74,19 +74,19 @@ INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Wa
 
 #if ORIENTED
 
-INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const Walk* walk, float* entry) {
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state, float* entry) {
     global const float* volume = node->volume[slot];
     if ((node->child[slot] & BOXWOOD_ALIGNED) != 0)
-        return ray_box(ray, (global const Aabb*)volume, walk->t_min, walk->t_max, entry);
-    return ray_obb(ray, volume, walk->t_min, walk->t_max, entry);
+        return ray_box(ray, (global const Aabb*)volume, state->t_min, state->t_max, entry);
+    return ray_obb(ray, volume, state->t_min, state->t_max, entry);
 }
 
 INLINE uint child_reference(global const node_t* node, uint slot) { return node->child[slot] & ~BOXWOOD_ALIGNED; }
 
 #else
 
-INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const Walk* walk, float* entry) {
-    return ray_box(ray, &node->bounds[slot], walk->t_min, walk->t_max, entry);
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state, float* entry) {
+    return ray_box(ray, &node->bounds[slot], state->t_min, state->t_max, entry);
 }
 
 INLINE uint child_reference(global const node_t* node, uint slot) { return node->child[slot]; }
@@ -94,17 +94,17 @@ INLINE uint child_reference(global const node_t* node, uint slot) { return node-
 #endif
 
 /// The nearer child met, the other left on the stack. BOXWOOD_NONE when none is met, as the empty box never is.
-INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Walk* walk, entry_t* stack) {
+INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, TraversalState* state, entry_t* stack) {
     global const node_t* node = &arrays->nodes[index];
 #if STATISTICS
-    walk->statistics.volumes += node->child[1] == BOXWOOD_NONE ? 1 : 2;
+    state->statistics.volumes += node->child[1] == BOXWOOD_NONE ? 1 : 2;
 #endif
     float entry0, entry1;
-    const bool met0 = ray_child(ray, node, 0, walk, &entry0);
-    const bool met1 = ray_child(ray, node, 1, walk, &entry1);
+    const bool met0 = ray_child(ray, node, 0, state, &entry0);
+    const bool met1 = ray_child(ray, node, 1, state, &entry1);
     if (met0 && met1) {
         const bool swapped = entry1 < entry0;
-        stack[walk->top++] = ENTRY_OF(swapped ? entry0 : entry1, child_reference(node, swapped ? 0 : 1));
+        stack[state->top++] = ENTRY_OF(swapped ? entry0 : entry1, child_reference(node, swapped ? 0 : 1));
         return child_reference(node, swapped ? 1 : 0);
     }
     return met0 ? child_reference(node, 0) : met1 ? child_reference(node, 1) : BOXWOOD_NONE;

@@ -89,8 +89,8 @@ Json node_report(const AnalysisNode& node, const NodeMeasures& measures, bool ar
                  {"max", node.box.max},
                  {"surface", measures.surface}};
     if (!areas) return json;
-    json["chance"] = measures.chance;
-    json["chance_culled"] = measures.chance_culled;
+    json["probability"] = measures.probability;
+    json["probability_culled"] = measures.probability_culled;
     json["overlap"] = measures.smaller > 0.0 ? measures.overlap / measures.smaller : 0.0;
     json["overlap_culled"] = measures.smaller_culled > 0.0 ? measures.overlap_culled / measures.smaller_culled : 0.0;
     return json;
@@ -126,7 +126,7 @@ void print_trees(const std::vector<Analysed>& trees) {
                    grouped(analysis.primitives), std::to_string(analysis.depth()), fixed(analysis.all.sah, 2),
                    seen ? fixed(analysis.all.pah, 2) : "-", seen ? fixed(analysis.all.pah_culled, 2) : "-"});
     }
-    table.print("Trees: expected cost of a ray, " + fixed(box_price, 1) + " per box and " + fixed(primitive_price, 1) +
+    table.print("Trees: expected cost of a ray, " + fixed(box_cost, 1) + " per box and " + fixed(primitive_cost, 1) +
                 " per primitive");
     if (trees.size() > most) std::cout << "and " << trees.size() - most << " more; --report has all\n";
 }
@@ -191,13 +191,13 @@ std::vector<InfluenceRecord> areas_of(const TreeImage& image, const Prepared& pr
 void print_analysis(const Arguments& arguments, const Input& input, const Prepared& prepared,
                     const std::vector<Analysed>& trees) {
     std::cout << arguments.input.string() << ": " << grouped(input.scene.triangle_count()) << " triangles, "
-              << name(prepared.tree.layout) << ", " << name(prepared.tree.bounds) << ", "
-              << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << '\n';
+              << name(prepared.tree.layout()) << ", " << name(prepared.tree.bounds()) << ", "
+              << (prepared.tree.levels() == Levels::two ? "two levels" : "one level") << '\n';
     print_trees(trees);
     if (trees.empty()) return;
     print_levels(trees[0]);
     if (trees[0].by_areas) print_overlap(trees[0].analysis);
-    print_leaves(trees, prepared.tree.levels);
+    print_leaves(trees, prepared.tree.levels());
 }
 
 void run(const Arguments& arguments) {

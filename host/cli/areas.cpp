@@ -5,7 +5,7 @@
 #include <sstream>
 #include <vector>
 
-#include "hierarchy/tree_walker.hpp"
+#include "tree_image/tree_walker.hpp"
 
 namespace boxwood::cli {
 

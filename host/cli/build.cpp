@@ -25,9 +25,9 @@ struct Arguments {
 void print_summary(const Arguments& arguments, const Input& input, const Prepared& prepared) {
     const BuildReport& report = *prepared.report;
     std::cout << arguments.output.string() << ": " << grouped(input.scene.triangle_count()) << " triangles, "
-              << grouped(input.scene.instances.size()) << " instances, " << name(prepared.tree.layout) << ", "
-              << name(prepared.tree.bounds) << ", "
-              << (prepared.tree.levels == Levels::two ? "two levels" : "one level") << ", " << grouped(report.nodes)
+              << grouped(input.scene.instances.size()) << " instances, " << name(prepared.tree.layout()) << ", "
+              << name(prepared.tree.bounds()) << ", "
+              << (prepared.tree.levels() == Levels::two ? "two levels" : "one level") << ", " << grouped(report.nodes)
               << " nodes, depth " << report.max_depth << ", built by " << name(prepared.options.builder) << " in "
               << std::fixed << std::setprecision(1) << report.total_ms << " ms (kernels " << report.profile.total_ms()
               << " ms)\n";

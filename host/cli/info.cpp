@@ -11,11 +11,11 @@
 #include "cli/areas.hpp"
 #include "cli/input.hpp"
 #include "cli/report.hpp"
-#include "hierarchy/tree_boxes.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_lines.hpp"
-#include "io/picture.hpp"
+#include "metrics/tree_boxes.hpp"
 #include "render/appearance_lights.hpp"
-#include "runtime/excerpt.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood::cli {
 
@@ -145,7 +145,7 @@ void print_scene(const Input& input) {
                   << " primitives of points or lines\n";
 }
 
-void print_looks(const Scene& scene) {
+void print_materials(const Scene& scene) {
     std::cout << "  materials   " << grouped(scene.materials.size()) << '\n'
               << "  textures    " << grouped(scene.textures.size()) << '\n';
     constexpr std::size_t most_lines = 8;
@@ -200,7 +200,7 @@ void run(const Arguments& arguments) {
         std::cout << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     } else if (!arguments.common.quiet) {
         print_scene(input);
-        print_looks(input.scene);
+        print_materials(input.scene);
         if (input.tree) print_tree(*input.tree);
         print_reasons(input);
     }

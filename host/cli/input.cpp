@@ -9,7 +9,7 @@
 #include "boxwood/gltf.hpp"
 #include "boxwood/rays.hpp"
 #include "boxwood/rounding.hpp"
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 
 namespace boxwood::cli {
 
@@ -66,8 +66,8 @@ Prepared stored_or_built(Device& device, const Input& input, const BuildChoice& 
             options.builder = Builder::sah; // no area is worth it
         BuildReport report;
         Tree tree = build(device, input.scene, options, &report);
-        options.layout = tree.layout;
-        options.area_index = tree.area_index;
+        options.layout = tree.layout();
+        options.area_index = tree.area_index();
         return {std::move(tree), options, std::move(report), std::move(probed), {}};
     }
     if (choice.given())

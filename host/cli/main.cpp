@@ -5,7 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/standard_output.hpp"
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 
 namespace boxwood::cli {
 

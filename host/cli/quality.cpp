@@ -62,9 +62,9 @@ void run(const Arguments& arguments) {
         print_warnings(arguments.scene, control.warnings);
         std::cout << arguments.scene.string() << ": " << grouped(input.scene.triangle_count()) << " triangles in "
                   << grouped(input.scene.meshes.size()) << " meshes, " << grouped(input.scene.instances.size())
-                  << " instances, binary layout, " << (control.tree.levels == Levels::two ? "two levels" : "one level")
-                  << '\n';
-        print_quality(study, levels, control.tree.levels == Levels::two);
+                  << " instances, binary layout, "
+                  << (control.tree.levels() == Levels::two ? "two levels" : "one level") << '\n';
+        print_quality(study, levels, control.tree.levels() == Levels::two);
     }
     if (arguments.common.profile) print_profile(device, control);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/quality_report.hpp"
 
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood::cli {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood::cli {
 

@@ -5,7 +5,7 @@
 
 #include "cli/quality_report.hpp"
 #include "cli/table.hpp"
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood::cli {
 

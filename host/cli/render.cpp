@@ -17,7 +17,7 @@
 #include "cli/render_work.hpp"
 #include "cli/report.hpp"
 #include "cli/view.hpp"
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 
 namespace boxwood::cli {
 

@@ -5,7 +5,7 @@
 #include "boxwood/geometry.hpp"
 #include "boxwood/reduce.hpp"
 #include "boxwood/volumes.hpp"
-#include "hierarchy/binary_parts.hpp"
+#include "layout/triangle_records.hpp"
 #include "runtime/launch.hpp"
 #include "traverse/ray_cost.hpp"
 
@@ -41,7 +41,7 @@ StudyBuilder all_axes_builder(const char* name, const char* measure, const char*
     options.cost = cost;
     options.axes = "all_axes";
     options.bins = 40;
-    options.slice_primitives = 1;
+    options.primitives_per_bin = 1;
     options.max_leaf_primitives = 2;
     return {name, options, false, costed_leaves, share};
 }
@@ -98,7 +98,7 @@ void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays
     for (const Hit& each : download(device, hits)) hit += each.primitive != BOXWOOD_NONE ? 1 : 0;
     const auto count = static_cast<double>(rays.size());
     const auto cost = [&](std::uint64_t inner, std::uint64_t below) {
-        return (2.0 * box_price * static_cast<double>(inner) + primitive_price * static_cast<double>(below)) / count;
+        return (2.0 * box_cost * static_cast<double>(inner) + primitive_cost * static_cast<double>(below)) / count;
     };
     result.cost = cost(nodes, primitives);
     result.cost_to_hit = cost(nodes_to_hit, primitives_to_hit);
@@ -117,7 +117,7 @@ TreeResult study_tree(Device& device, const Primitives& primitives, InfluenceRec
     const Buffer<Aabb> volumes = aabb_volumes(device, tree.topology, primitives.boxes);
     if (builder.costed_leaves)
         tree.leaves = costed_leaves(device, tree.topology, volumes, primitives.bounds, areas, starts,
-                                    static_cast<float>(box_price), static_cast<float>(primitive_price));
+                                    static_cast<float>(box_cost), static_cast<float>(primitive_cost));
     TreeResult result;
     follow_rays(device,
                 {tree.topology, volumes, tree.leaves, triangle_records(device, tree.topology, primitives.geometry, {}),

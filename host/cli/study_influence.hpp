@@ -27,7 +27,7 @@ inline constexpr const char* study_base = "SAH+LSPH";
 
 /// The paper's four builders with its parameters (8.1.1, table 1), the base first. Then what the paper lacks: surface area with all
 /// axes tried at every node (sah-axes); the same with a cost of overlap and leaves by cost (sah-best); and the last with
-/// the chances of the rays that come (blend), so that the two tell what knowing the rays is worth.
+/// the probabilities of the rays that come (blend), so that the two tell what knowing the rays is worth.
 std::vector<StudyBuilder> study_builders();
 
 /// The five cases of the paper's table 2, all of PAH+SPFH.

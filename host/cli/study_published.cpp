@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "boxwood/error.hpp"
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 
 namespace boxwood::cli {
 

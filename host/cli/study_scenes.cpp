@@ -10,7 +10,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/gltf.hpp"
-#include "hierarchy/area_triangles.hpp"
+#include "build/area_triangles.hpp"
 #include "scene/random.hpp"
 
 namespace boxwood::cli {

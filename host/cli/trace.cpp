@@ -12,7 +12,7 @@
 #include "cli/progress.hpp"
 #include "cli/rays.hpp"
 #include "cli/report.hpp"
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood::cli {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "boxwood/rays.hpp"
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood::cli {

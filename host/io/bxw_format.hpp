@@ -77,7 +77,7 @@ inline constexpr std::array<SectionKind, 25> section_kinds = {{
     {"uvs_0", sizeof(glm::vec2)},
     {"uvs_1", sizeof(glm::vec2)},
     {"colors", sizeof(glm::vec4)},
-    {"looks", 1},  // see bxw_looks.hpp
+    {"looks", 1},  // of materials, textures and lights: see bxw_materials.hpp
     {"images", 1}, // the files of all images
     {"tree", sizeof(TreeRecord)},
     {"binary_nodes", sizeof(BinaryNode)}, // from here on the arrays of TreeImage

@@ -8,7 +8,7 @@
 
 #include "boxwood/error.hpp"
 #include "io/bxw_format.hpp"
-#include "io/bxw_looks.hpp"
+#include "io/bxw_materials.hpp"
 #include "io/bxw_scene.hpp"
 
 namespace boxwood {
@@ -90,12 +90,12 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         if (count > left_ / sizeof(T)) fail("has fewer elements than stated");
         std::vector<T> elements(static_cast<std::size_t>(count));
-        // In blocks, so that the checksum finds the bytes still in cache.
-        constexpr std::size_t block = std::size_t{1} << 20;
+        // In chunks, so that the checksum finds the bytes still in cache.
+        constexpr std::size_t chunk = std::size_t{1} << 20;
         auto* const bytes = reinterpret_cast<char*>(elements.data());
         const std::size_t size = elements.size() * sizeof(T);
         for (std::size_t done = 0; done < size;) {
-            const std::size_t part = std::min(block, size - done);
+            const std::size_t part = std::min(chunk, size - done);
             in_.read(bytes + done, static_cast<std::streamsize>(part));
             if (static_cast<std::size_t>(in_.gcount()) != part) fail("is truncated");
             sum_.add(bytes + done, part);
@@ -170,7 +170,7 @@ Scene read_scene(SectionReader& in, const std::string& file) {
         in, "uvs_1", outline, mesh_uvs_1, [](Mesh & mesh) -> auto& { return mesh.uvs[1]; });
     read_attribute<glm::vec4>(
         in, "colors", outline, mesh_colors, [](Mesh & mesh) -> auto& { return mesh.colors; });
-    const std::vector<std::uint64_t> sizes = decode_looks(in.all<char>("looks"), file, outline.scene);
+    const std::vector<std::uint64_t> sizes = decode_materials(in.all<char>("looks"), file, outline.scene);
     in.begin("images");
     for (std::size_t i = 0; i < sizes.size(); ++i) outline.scene.images[i].bytes = in.take<std::byte>(sizes[i]);
     in.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Section "scene" of a .bxw file: everything of a Scene but the big arrays and the looks. In order (bxw_codec.hpp):
+// Section "scene" of a .bxw file: everything of a Scene but the big arrays and the materials. In order (bxw_codec.hpp):
 //
 //     import counts: 3 x u64
 //     meshes:    text name, u64 vertices, u64 triangles, u32 parts (bits of MeshPart)

@@ -4,7 +4,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/bxw_format.hpp"
-#include "io/bxw_looks.hpp"
+#include "io/bxw_materials.hpp"
 #include "io/bxw_scene.hpp"
 
 namespace boxwood {
@@ -60,7 +60,7 @@ void put(std::ostream& out, std::span<const std::byte> bytes) {
 void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
     const std::string outline = encode_scene(scene);
     const TreeRecord record = record_of(tree);
-    const std::string looks = encode_looks(scene);
+    const std::string materials = encode_materials(scene);
     const auto of_meshes = [&scene](auto member) {
         Parts parts;
         for (const Mesh& mesh : scene.meshes) parts.push_back(std::as_bytes(std::span(member(mesh))));
@@ -79,7 +79,7 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
         of_meshes([](const Mesh& mesh) -> auto& { return mesh.uvs[0]; }),
         of_meshes([](const Mesh& mesh) -> auto& { return mesh.uvs[1]; }),
         of_meshes([](const Mesh& mesh) -> auto& { return mesh.colors; }),
-        Parts{std::as_bytes(std::span(looks))},
+        Parts{std::as_bytes(std::span(materials))},
         std::move(images),
         Parts{std::as_bytes(std::span(&record, 1))},
         one_part(tree.binary_nodes),

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_document.hpp"
 #include "io/gltf_extensions.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 

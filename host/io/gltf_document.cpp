@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_extensions.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -70,18 +70,18 @@ Container open_glb(std::span<const std::byte> bytes, const std::string& file) {
 }
 
 // Moved out of `root`: tinygltf would open the images.
-nlohmann::json take_looks(nlohmann::json& root) {
-    nlohmann::json looks = nlohmann::json::object();
+nlohmann::json take_appearance(nlohmann::json& root) {
+    nlohmann::json appearance = nlohmann::json::object();
     for (const char* key : {"materials", "textures", "samplers", "images"}) {
         const auto found = root.find(key);
-        looks[key] = found == root.end() ? nlohmann::json::array() : std::move(*found);
+        appearance[key] = found == root.end() ? nlohmann::json::array() : std::move(*found);
         root.erase(key);
     }
-    looks["lights"] = nlohmann::json::array();
+    appearance["lights"] = nlohmann::json::array();
     if (root.contains("/extensions/KHR_lights_punctual/lights"_json_pointer))
-        looks["lights"] = std::move(root["extensions"]["KHR_lights_punctual"]["lights"]);
+        appearance["lights"] = std::move(root["extensions"]["KHR_lights_punctual"]["lights"]);
     root.erase("extensions");
-    return looks;
+    return appearance;
 }
 
 /// What tinygltf refuses or follows unchecked; it is put back into the model that tinygltf makes.
@@ -179,7 +179,7 @@ GltfDocument open_gltf(std::span<const std::byte> bytes, std::string file, const
     check_gltf_fields(root, document.file, warnings);
     document.folder = folder;
     load_buffers(document, root, container.binary, warnings);
-    document.looks = take_looks(root);
+    document.appearance = take_appearance(root);
     document.model = make_model(std::move(root), document.file);
     return document;
 }

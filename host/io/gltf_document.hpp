@@ -31,7 +31,8 @@ struct GltfDocument {
 
     std::string file;      ///< For messages.
     tinygltf::Model model; ///< Scenes, nodes, meshes, cameras, accessors and buffer views; no buffers, no materials.
-    nlohmann::json looks; ///< "materials", "textures", "samplers", "images" and "lights" as the file has them, checked.
+    nlohmann::json
+        appearance; ///< "materials", "textures", "samplers", "images" and "lights" as the file has them, checked.
     std::filesystem::path folder; ///< Of files that it names; empty when there is none.
     std::vector<Buffer> buffers;
     std::vector<std::vector<std::byte>> owned; ///< What `buffers` outside the file's own bytes point into.

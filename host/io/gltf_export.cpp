@@ -12,7 +12,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/gltf.hpp"
 #include "io/atomic_file.hpp"
-#include "io/gltf_export_looks.hpp"
+#include "io/gltf_export_materials.hpp"
 #include "io/gltf_lines.hpp"
 #include "io/gltf_text.hpp"
 #include "scene/transform.hpp"
@@ -206,7 +206,7 @@ std::string make_json(const Scene& scene, Mode mode, Binary& binary) {
     if (!scene.meshes.empty()) append_meshes(text, scene.meshes, mode, binary);
     std::vector<std::size_t> image_views;
     for (const EncodedImage& image : scene.images) image_views.push_back(binary.add_view(image.bytes, ""));
-    append_looks(text, scene, image_views);
+    append_materials(text, scene, image_views);
     binary.append_json(text);
     if (!scene.cameras.empty()) append_cameras(text, scene.cameras);
     const std::size_t nodes = scene.instances.size() + scene.cameras.size() + scene.lights.size();

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_document.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of looks and sound: what one changes is replaced, so that it never refuses a file.
+/// Of materials and sound: what one changes is replaced, so that it never refuses a file.
 constexpr std::array neutral_prefixes{"KHR_materials_",   "KHR_texture_",   "KHR_lights_", "KHR_xmp",
                                       "EXT_materials_",   "EXT_texture_",   "EXT_lights_", "MSFT_texture_",
                                       "ADOBE_materials_", "KHR_animation_", "KHR_audio",   "GOOGLE_texture_"};

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_document.hpp"
 #include "io/gltf_warnings.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 
@@ -174,7 +174,7 @@ private:
 };
 
 /// The part of check_gltf_fields about materials, textures, images, samplers and lights.
-void check_gltf_looks(nlohmann::json& root, const FieldReport& report);
+void check_gltf_materials(nlohmann::json& root, const FieldReport& report);
 
 /// Calls check(value, fields) for every element of the array under `key` of `parent`.
 template <class Path, class Check>

@@ -166,7 +166,7 @@ void check_gltf_fields(json& root, const std::string& file, Warnings& warnings) 
         f.string("name");
         f.indices("nodes");
     });
-    check_gltf_looks(root, report);
+    check_gltf_materials(root, report);
 }
 
 json parse_gltf_json(std::string_view text, const std::string& file) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/excerpt.hpp"
 #include "io/gltf_numbers.hpp"
-#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {
@@ -57,7 +57,7 @@ std::optional<Light> load_light(const GltfDocument& document, const PlacedNode& 
     if (found == node.extensions.end() || !found->second.Has("light")) return std::nullopt;
     const std::string node_name = element("nodes", placed.node);
     const int index = found->second.Get("light").GetNumberAsInt();
-    const json& lights = document.looks["lights"];
+    const json& lights = document.appearance["lights"];
     if (!GltfDocument::has(index, lights.size()))
         document.fail(node_name + ".extensions." + extension + ".light", "names a light that does not exist");
     const json& from = lights[static_cast<std::size_t>(index)];

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_extensions.hpp"
 #include "io/gltf_numbers.hpp"
-#include "io/picture.hpp"
-#include "runtime/excerpt.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood {
 
@@ -31,15 +31,15 @@ using Places = std::vector<std::optional<std::uint32_t>>;
 class MaterialLoader {
 public:
     MaterialLoader(const GltfDocument& document, Scene& scene, Warnings& warnings)
-        : document_(document), looks_(document.looks), scene_(scene), warnings_(warnings) {}
+        : document_(document), appearance_(document.appearance), scene_(scene), warnings_(warnings) {}
 
     void load() {
-        for (std::size_t i = 0; i < looks_["images"].size(); ++i)
-            images_.push_back(load_image(looks_["images"][i], element("images", i)));
-        for (std::size_t i = 0; i < looks_["textures"].size(); ++i)
-            textures_.push_back(load_texture(looks_["textures"][i], element("textures", i)));
-        for (std::size_t i = 0; i < looks_["materials"].size(); ++i)
-            scene_.materials.push_back(load_material(looks_["materials"][i], element("materials", i)));
+        for (std::size_t i = 0; i < appearance_["images"].size(); ++i)
+            images_.push_back(load_image(appearance_["images"][i], element("images", i)));
+        for (std::size_t i = 0; i < appearance_["textures"].size(); ++i)
+            textures_.push_back(load_texture(appearance_["textures"][i], element("textures", i)));
+        for (std::size_t i = 0; i < appearance_["materials"].size(); ++i)
+            scene_.materials.push_back(load_material(appearance_["materials"][i], element("materials", i)));
     }
 
 private:
@@ -86,9 +86,9 @@ private:
         Texture texture;
         if (from.contains("sampler")) {
             const auto index = from["sampler"].get<std::size_t>();
-            if (index >= looks_["samplers"].size())
+            if (index >= appearance_["samplers"].size())
                 document_.fail(where + ".sampler", "names a sampler that does not exist");
-            const json& sampler = looks_["samplers"][index];
+            const json& sampler = appearance_["samplers"][index];
             texture.wrap_u = wrap_of(sampler, "wrapS");
             texture.wrap_v = wrap_of(sampler, "wrapT");
             texture.nearest = sampler.value("magFilter", 0) == TINYGLTF_TEXTURE_FILTER_NEAREST;
@@ -189,7 +189,7 @@ private:
     }
 
     const GltfDocument& document_;
-    const json& looks_;
+    const json& appearance_;
     Scene& scene_;
     Warnings& warnings_;
     Places images_;

@@ -104,7 +104,7 @@ private:
 
     // Of the triangles that have none yet. A mesh without any material keeps an empty list.
     void add_materials(const tinygltf::Primitive& primitive, const std::string& where) {
-        const std::size_t known = document_.looks["materials"].size();
+        const std::size_t known = document_.appearance["materials"].size();
         if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= known)
             document_.fail(where, "names a material that does not exist");
         if (primitive.material < 0 && mesh_.materials.empty()) return;

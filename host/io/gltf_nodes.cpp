@@ -17,7 +17,7 @@ struct Pending {
     const glm::dmat4* parent;
 };
 
-// The parents of all nodes must make a forest: no node with two, none that no root reaches (it would be on a cycle).
+// The parents of all nodes must make trees: no node with two, none that no root reaches (it would be on a cycle).
 std::vector<std::size_t> find_roots(const GltfDocument& document) {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
     std::vector<bool> has_parent(nodes.size(), false);

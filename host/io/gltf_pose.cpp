@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "common/excerpt.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_mesh.hpp"
-#include "runtime/excerpt.hpp"
 #include "scene/transform.hpp"
 
 namespace boxwood {

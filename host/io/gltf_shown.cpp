@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "common/excerpt.hpp"
 #include "io/gltf_accessor.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 

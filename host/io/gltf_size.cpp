@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include "boxwood/error.hpp"
+#include "common/memory_limit.hpp"
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_attributes.hpp"
-#include "runtime/memory_limit.hpp"
 
 namespace boxwood {
 
@@ -57,7 +57,7 @@ public:
     /// The pictures in buffer views; of a file beside the scene each name is read once.
     void add_images() {
         std::set<int> known;
-        for (const nlohmann::json& image : document_.looks["images"])
+        for (const nlohmann::json& image : document_.appearance["images"])
             if (image.contains("bufferView") && known.insert(image["bufferView"].get<int>()).second)
                 bytes += bytes_there(image["bufferView"].get<int>());
     }

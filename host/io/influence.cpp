@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "boxwood/error.hpp"
+#include "common/excerpt.hpp"
 #include "io/gltf_document.hpp"
-#include "runtime/excerpt.hpp"
 
 namespace boxwood {
 

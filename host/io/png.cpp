@@ -14,7 +14,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/image.hpp"
 #include "io/atomic_file.hpp"
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood {
 

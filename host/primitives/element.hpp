@@ -14,10 +14,10 @@
 
 namespace boxwood::primitives {
 
-/// Elements folded in one go; BLOCK of cl/primitives/operator.h.
-inline constexpr std::size_t block = 1024;
+/// Elements folded in one go; TILE of cl/primitives/operator.h.
+inline constexpr std::size_t tile = 1024;
 
-inline std::size_t blocks_of(std::size_t count) { return count == 0 ? 1 : (count - 1) / block + 1; }
+inline std::size_t tiles_of(std::size_t count) { return count == 0 ? 1 : (count - 1) / tile + 1; }
 
 template <class T>
 struct Element;
@@ -76,11 +76,11 @@ Defines operator_defines(Operator op) {
     return {{"SCALAR", Element<T>::scalar}, {"COMPONENTS", std::to_string(Element<T>::components)}, {name, "1"}};
 }
 
-/// One level of a reduction: out[b] = the fold of block b of `in`. `out` has blocks_of(in.size()) elements.
+/// One level of a reduction: out[b] = the fold of tile b of `in`. `out` has tiles_of(in.size()) elements.
 template <class T>
-void reduce_blocks(Device& device, BufferView<const T> in, const Defines& defines, BufferView<T> out) {
+void reduce_tiles(Device& device, BufferView<const T> in, const Defines& defines, BufferView<T> out) {
     const std::size_t count = in.size();
-    const Slices slices = count == 0 ? Slices{1, block} : cut(device, count, block);
+    const Slices slices = count == 0 ? Slices{1, tile} : cut(device, count, tile);
     launch(device, {"primitives/reduce.cl", "reduce", defines}, "reduce", slices.slices, in, out,
            static_cast<cl_uint>(count), slices.length, slices.slices);
 }

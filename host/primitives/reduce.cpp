@@ -10,13 +10,13 @@ void reduce(Device& device, BufferView<const T> in, Operator op, BufferView<T> o
     primitives::require(out.size() >= 1, "out", "needs room for one element");
     const Defines defines = primitives::operator_defines<T>(op);
     Buffer<T> level;
-    for (std::size_t blocks = primitives::blocks_of(in.size()); blocks > 1; blocks = primitives::blocks_of(blocks)) {
-        Buffer<T> next = make_scratch<T>(device, blocks, "reduced blocks");
-        primitives::reduce_blocks<T>(device, in, defines, next.view());
+    for (std::size_t tiles = primitives::tiles_of(in.size()); tiles > 1; tiles = primitives::tiles_of(tiles)) {
+        Buffer<T> next = make_scratch<T>(device, tiles, "reduced tiles");
+        primitives::reduce_tiles<T>(device, in, defines, next.view());
         level = std::move(next);
         in = level;
     }
-    primitives::reduce_blocks<T>(device, in, defines, out);
+    primitives::reduce_tiles<T>(device, in, defines, out);
 }
 
 template void reduce(Device&, BufferView<const std::int32_t>, Operator, BufferView<std::int32_t>);

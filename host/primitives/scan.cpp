@@ -11,32 +11,32 @@ namespace boxwood {
 
 namespace {
 
-/// What is before each block of 1024, before each block of these, and so on.
+/// What is before each tile of 1024, before each tile of these, and so on.
 template <class T>
 using Levels = std::vector<Buffer<T>>;
 
 template <class T>
 Levels<T> make_levels(Device& device, std::size_t count) {
     Levels<T> levels;
-    for (std::size_t blocks = primitives::blocks_of(count); blocks > 1; blocks = primitives::blocks_of(blocks))
-        levels.push_back(make_scratch<T>(device, blocks, "scanned blocks"));
+    for (std::size_t tiles = primitives::tiles_of(count); tiles > 1; tiles = primitives::tiles_of(tiles))
+        levels.push_back(make_scratch<T>(device, tiles, "scanned tiles"));
     return levels;
 }
 
-/// The fold of everything before each block is the exclusive scan of the blocks' folds: one level up, the same again.
+/// The fold of everything before each tile is the exclusive scan of the tiles' folds: one level up, the same again.
 template <class T>
 void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclusive, BufferView<T> out,
           const Levels<T>& levels, std::size_t level = 0) {
-    const std::size_t blocks = primitives::blocks_of(in.size());
+    const std::size_t tiles = primitives::tiles_of(in.size());
     BufferView<T> before;
-    if (blocks > 1) {
-        before = levels[level].prefix(blocks);
-        primitives::reduce_blocks<T>(device, in, op, before);
+    if (tiles > 1) {
+        before = levels[level].prefix(tiles);
+        primitives::reduce_tiles<T>(device, in, op, before);
         scan<T>(device, before, op, false, before, levels, level + 1);
     }
     Defines defines = op;
     defines["INCLUSIVE"] = std::to_string(inclusive ? 1 : 0);
-    const Slices slices = cut(device, in.size(), primitives::block);
+    const Slices slices = cut(device, in.size(), primitives::tile);
     launch(device, {"primitives/scan.cl", "scan", defines}, "scan", slices.slices, in, out, before,
            static_cast<cl_uint>(in.size()), slices.length, slices.slices);
 }

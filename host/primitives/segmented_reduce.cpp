@@ -18,22 +18,22 @@ void segmented(Device& device, BufferView<const T> in, BufferView<const std::uin
            static_cast<cl_uint>(segments), over_segments.length, over_segments.slices);
     if (in.size() == 0) return;
 
-    const std::size_t blocks = primitives::blocks_of(in.size());
-    const auto head = make_scratch<T>(device, blocks, "heads of blocks");
-    const auto tail = make_scratch<T>(device, blocks, "tails of blocks");
-    const auto tail_segment = make_scratch<std::uint32_t>(device, blocks, "segments of tails");
-    const auto spans = make_scratch<std::uint32_t>(device, blocks + 1, "spans of heads");
-    const Slices over_elements = cut(device, in.size(), primitives::block);
+    const std::size_t tiles = primitives::tiles_of(in.size());
+    const auto head = make_scratch<T>(device, tiles, "heads of tiles");
+    const auto tail = make_scratch<T>(device, tiles, "tails of tiles");
+    const auto tail_segment = make_scratch<std::uint32_t>(device, tiles, "segments of tails");
+    const auto spans = make_scratch<std::uint32_t>(device, tiles + 1, "spans of heads");
+    const Slices over_elements = cut(device, in.size(), primitives::tile);
     launch(device, {file, "segmented_reduce", defines}, "segmented reduce", over_elements.slices, in, offsets, out,
            head, tail, tail_segment, spans, static_cast<cl_uint>(in.size()), static_cast<cl_uint>(segments),
            over_elements.length, over_elements.slices);
-    if (blocks == 1) return;
+    if (tiles == 1) return;
 
-    const auto reduced = make_scratch<T>(device, blocks, "reduced heads");
+    const auto reduced = make_scratch<T>(device, tiles, "reduced heads");
     segmented<T>(device, head, spans, defines, reduced);
-    const Slices over_blocks = cut(device, blocks);
-    launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_blocks.slices, tail, reduced,
-           tail_segment, out, static_cast<cl_uint>(blocks), over_blocks.length, over_blocks.slices);
+    const Slices over_tiles = cut(device, tiles);
+    launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_tiles.slices, tail, reduced,
+           tail_segment, out, static_cast<cl_uint>(tiles), over_tiles.length, over_tiles.slices);
 }
 
 } // namespace

@@ -6,9 +6,9 @@
 #include <type_traits>
 
 #include "boxwood/gbuffer.hpp"
+#include "common/words.hpp"
 #include "render/camera.hpp"
 #include "runtime/launch.hpp"
-#include "runtime/words.hpp"
 #include "scene/materials_in_use.hpp"
 
 namespace boxwood {

@@ -12,7 +12,7 @@
 
 #include "boxwood/buffer.hpp"
 #include "boxwood/scene.hpp"
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 #include "shared/material.h"
 
 namespace boxwood {

@@ -5,7 +5,8 @@
 
 #include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
-#include "render/line_areas.hpp"
+#include "influence/line_areas.hpp"
+#include "layout/tree_arrays.hpp"
 
 namespace boxwood {
 
@@ -56,7 +57,7 @@ struct Control {
         options.areas = {area};
         const Tree with = build(device, scene, options);
         const Cost cost = cost_of(device, with, lines);
-        const bool lookup = with.areas.size() > 0;
+        const bool lookup = with.arrays().areas.size() > 0;
         ProbedArea result{area, rays, lines.size(), cost_of(device, tree, lines).tests, cost.tests, false};
         result.local_cost += lookup ? 1.0 : 0.0;
         // Where every ray goes on to the global tree, fewer tests still take more time: two searches and the lookup.

@@ -8,6 +8,7 @@
 
 #include "boxwood/error.hpp"
 #include "io/bxw_format.hpp"
+#include "layout/tree_arrays.hpp"
 #include "render/environment.hpp"
 
 namespace boxwood {
@@ -84,15 +85,14 @@ void add_world(bxw::Checksum& sum, Device& device, const World& world) {
 
 /// What the cost of a ray depends on: kinds, counts and nodes.
 void add_tree(bxw::Checksum& sum, Device& device, const Tree& tree) {
-    for (const std::uint32_t kind : {static_cast<std::uint32_t>(tree.layout), static_cast<std::uint32_t>(tree.levels),
-                                     static_cast<std::uint32_t>(tree.bounds)})
+    for (const std::uint32_t kind :
+         {static_cast<std::uint32_t>(tree.layout()), static_cast<std::uint32_t>(tree.levels()),
+          static_cast<std::uint32_t>(tree.bounds())})
         add_value(sum, kind);
-    add_array(sum, device, tree.binary_nodes);
-    add_array(sum, device, tree.oriented_nodes);
-    add_array(sum, device, tree.wide_nodes);
-    add_array(sum, device, tree.binary_top);
-    add_array(sum, device, tree.oriented_top);
-    add_array(sum, device, tree.wide_top);
+    visit_layout(tree.arrays(), [&](const auto& bottom, const auto& top) {
+        add_array(sum, device, bottom.nodes);
+        add_array(sum, device, top.nodes);
+    });
 }
 
 void add_camera(bxw::Checksum& sum, const Camera& camera) {

@@ -15,7 +15,7 @@ namespace {
 
 double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-/// `weights`, all >= 0, become a distribution: 0, sums up to each, 1. Where every weight is 0 all are equal. A share of 2^-10
+/// `weights`, all >= 0, become a distribution: 0, sums up to each, 1. Where every weight is 0 all are equal. A fraction of 2^-10
 /// is spread over all, so that none that is not 0 rounds to nothing.
 void append_distribution(const std::vector<double>& weights, std::vector<float>& out) {
     double total = 0.0;

@@ -67,10 +67,10 @@ void g_buffer(Device& device, const Geometry& geometry, const Appearance& appear
     Defines defines = scene_defines(device, geometry, appearance.requirements, filter);
     defines["PLANES"] = std::to_string(bits);
     const Slices slices = cut(device, hits.size());
-    const float share = 1.0f / std::sqrt(static_cast<float>(samples));
+    const float fraction = 1.0f / std::sqrt(static_cast<float>(samples));
     launch_shading(device, {"render/gbuffer.cl", "g_buffer", defines}, "g-buffer", slices.slices, geometry, appearance,
-                   camera, rays, hits, static_cast<std::uint32_t>(hits.size()), slices.length, share, planes.positions,
-                   planes.geometric_normals, planes.shading_normals, planes.albedos, planes.depths,
+                   camera, rays, hits, static_cast<std::uint32_t>(hits.size()), slices.length, fraction,
+                   planes.positions, planes.geometric_normals, planes.shading_normals, planes.albedos, planes.depths,
                    planes.uv_derivatives, planes.materials, planes.instances, planes.primitives);
 }
 

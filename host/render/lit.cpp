@@ -15,7 +15,7 @@ namespace boxwood {
 namespace {
 
 constexpr std::size_t lamp_rays = 1024;
-constexpr double least_share = 0.5, least_radiance = 0x1p-10;
+constexpr double least_fraction = 0.5, least_radiance = 0x1p-10;
 
 /// A triangle that emits, in world space.
 struct Lamp {
@@ -74,8 +74,8 @@ double surface_area(const glm::dvec3& extents) {
     return 2.0 * (extents.x * extents.y + extents.y * extents.z + extents.z * extents.x);
 }
 
-/// The share of the lamps' light that meets a surface.
-double received_share(Device& device, const Tree& tree, const std::vector<Lamp>& lamps, double power) {
+/// The fraction of the lamps' light that meets a surface.
+double received_fraction(Device& device, const Tree& tree, const std::vector<Lamp>& lamps, double power) {
     std::vector<Ray> rays;
     std::size_t lamp = 0;
     double before = 0.0;
@@ -101,7 +101,7 @@ bool has_light(Device& device, const Scene& scene, const Tree& tree) {
     for (const Lamp& lamp : lamps) power += lamp.power;
     const auto box = world_box(scene);
     if (!box || !(power > least_radiance * surface_area(box->extents()))) return false;
-    return received_share(device, tree, lamps, power) > least_share;
+    return received_fraction(device, tree, lamps, power) > least_fraction;
 }
 
 } // namespace boxwood

@@ -91,9 +91,9 @@ std::uint32_t top_of(std::vector<std::uint32_t> values) {
     return *rank;
 }
 
-/// The value that `share` of the elements do not pass.
-double percentile(std::vector<double>& values, double share) {
-    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+/// The value that `fraction` of the elements do not pass.
+double percentile(std::vector<double>& values, double fraction) {
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), rank, values.end());
     return *rank;
 }

@@ -9,7 +9,7 @@
 #include "boxwood/error.hpp"
 #include "boxwood/radix_sort.hpp"
 #include "boxwood/scan.hpp"
-#include "hierarchy/placed_build.hpp"
+#include "build/pipeline.hpp"
 #include "runtime/launch.hpp"
 #include "shared/raster.h"
 
@@ -64,12 +64,12 @@ struct Batch {
 } // namespace
 
 Rasteriser::Rasteriser(Device& device, const Scene& scene, const Tree& tree, const Geometry& geometry)
-    : device_(device), geometry_(geometry), sphere_(tree.sphere),
+    : device_(device), geometry_(geometry), sphere_(tree.arrays().sphere),
       instances_(static_cast<std::uint32_t>(scene.instances.size())) {
     const std::vector<std::uint32_t> before = placed_before(scene);
     placed_ = before.back();
     first_placed_ = upload(device, before, "placed triangles");
-    flattened_ = tree.levels == Levels::one;
+    flattened_ = tree.levels() == Levels::one;
     if (flattened_ && placed_ != 0 && !is_flat(scene)) flat_ = upload(device, flatten(scene));
 }
 

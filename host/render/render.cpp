@@ -86,7 +86,7 @@ std::string describe(const Environment& environment) {
 
 std::string describe(const Tree& tree) {
     std::string words;
-    for (const std::string_view word : {name(tree.layout), name(tree.levels), name(tree.bounds)})
+    for (const std::string_view word : {name(tree.layout()), name(tree.levels()), name(tree.bounds())})
         words += (words.empty() ? "" : ", ") + std::string(word);
     return words;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "boxwood/render_options.hpp"
 
-#include "runtime/words.hpp"
+#include "common/words.hpp"
 
 namespace boxwood {
 

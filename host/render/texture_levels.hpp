@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood {
 

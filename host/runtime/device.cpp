@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "boxwood/error.hpp"
+#include "common/memory_limit.hpp"
 #include "runtime/device_state.hpp"
 #include "runtime/language.hpp"
-#include "runtime/memory_limit.hpp"
 #include "runtime/pocl.hpp"
 
 namespace boxwood {

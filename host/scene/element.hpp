@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "runtime/excerpt.hpp"
+#include "common/excerpt.hpp"
 
 namespace boxwood {
 

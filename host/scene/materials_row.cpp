@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 #include "scene/procedural_kinds.hpp"
 #include "scene/transform.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "boxwood/requirements.hpp"
+#include "boxwood/shading_requirements.hpp"
 
 namespace boxwood {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "io/picture.hpp"
 #include "scene/element.hpp"
 #include "scene/materials_in_use.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood {
 

@@ -7,7 +7,7 @@
 #include "boxwood/scene.hpp"
 #include "scene/transform.hpp"
 #include "scene/validate_camera.hpp"
-#include "scene/validate_looks.hpp"
+#include "scene/validate_materials.hpp"
 
 namespace boxwood {
 
@@ -60,14 +60,14 @@ void validate(const Scene& scene, const std::string& file) {
     bounds.reserve(scene.meshes.size());
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         validate_mesh(scene.meshes[i], file, element("meshes", i));
-        validate_looks(scene, scene.meshes[i], file, element("meshes", i));
+        validate_materials(scene, scene.meshes[i], file, element("meshes", i));
         bounds.push_back(mesh_bounds(scene.meshes[i].positions));
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) validate_instance(scene, i, bounds, file);
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         validate_camera(scene.cameras[i], file, element("cameras", i) + ".");
     }
-    validate_looks(scene, file);
+    validate_materials(scene, file);
 }
 
 } // namespace boxwood

@@ -19,21 +19,14 @@ void write_misses(Device& device, BufferView<Hit> hits) {
 void trace(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits,
            BufferView<RayStatistics> statistics, Query query, const TraceOptions& options) {
     const Slices slices = cut_rays(device, rays.size());
-    const KernelRef kernel = traversal_kernel(tree, query, options);
-    const auto ray_count = static_cast<std::uint32_t>(rays.size());
-    const auto instance_count =
-        tree.first_triangles.size() == 0 ? 0u : static_cast<std::uint32_t>(tree.first_triangles.size() - 1);
-    const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
-        launch(device, kernel, "closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
-               tree.area_nodes, tree.area_items, tree.first_triangles, instance_count, rays, ray_count, slices.length,
-               tree.sphere, hits, statistics);
-    };
-    if (tree.bounds != Bounds::aabb)
-        run(tree.oriented_nodes, tree.triangles, tree.oriented_top);
-    else if (tree.layout == Layout::wide8)
-        run(tree.wide_nodes, tree.blocks, tree.wide_top);
-    else
-        run(tree.binary_nodes, tree.triangles, tree.binary_top);
+    const TreeArrays& arrays = tree.arrays();
+    const std::size_t starts = arrays.first_triangles.size();
+    visit_layout(arrays, [&](const auto& bottom, const auto& top) {
+        launch(device, traversal_kernel(tree, query, options), "closest hit", slices.slices, bottom.nodes,
+               bottom.leaves, top.nodes, arrays.instances, arrays.areas, arrays.area_nodes, arrays.area_items,
+               arrays.first_triangles, static_cast<std::uint32_t>(starts == 0 ? 0 : starts - 1), rays,
+               static_cast<std::uint32_t>(rays.size()), slices.length, arrays.sphere, hits, statistics);
+    });
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "traverse/ray_cost.hpp"
 
-#include "hierarchy/node_levels.hpp"
 #include "traverse/specialise.hpp"
+#include "volumes/node_levels.hpp"
 
 namespace boxwood {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "boxwood/error.hpp"
-#include "runtime/words.hpp"
+#include "common/words.hpp"
 
 namespace boxwood {
 
@@ -29,20 +29,20 @@ std::uint32_t stack_entries(std::uint64_t needed) {
 }
 
 std::uint32_t stack_size(const Tree& tree) {
-    const std::uint64_t siblings = tree.layout == Layout::wide8 ? 7 : 1;
-    return stack_entries(siblings * (std::uint64_t{tree.bottom_depth} + tree.top_depth));
+    const std::uint64_t siblings = tree.layout() == Layout::wide8 ? 7 : 1;
+    return stack_entries(siblings * (std::uint64_t{tree.max_depth()}));
 }
 
 KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& options) {
     const bool any = query == Query::any;
-    const bool flattened = !any && tree.first_triangles.size() != 0;
+    const bool flattened = !any && tree.arrays().first_triangles.size() != 0;
     return {any ? "traverse/any_hit.cl" : "traverse/closest_hit.cl",
             any ? "any_hit" : "closest_hit",
-            {{"LAYOUT", tree.layout == Layout::wide8 ? "8" : "2"},
-             {"ORIENTED", tree.bounds != Bounds::aabb ? "1" : "0"},
-             {"LEVELS", tree.levels == Levels::two ? "2" : "1"},
+            {{"LAYOUT", tree.layout() == Layout::wide8 ? "8" : "2"},
+             {"ORIENTED", tree.bounds() != Bounds::aabb ? "1" : "0"},
+             {"LEVELS", tree.levels() == Levels::two ? "2" : "1"},
              {"FLATTENED", flattened ? "1" : "0"},
-             {"AREAS", tree.areas.size() != 0 ? "1" : "0"},
+             {"AREAS", tree.arrays().areas.size() != 0 ? "1" : "0"},
              {"INTERSECTOR", options.intersector == Intersector::watertight ? "0" : "1"},
              {"STATISTICS", query == Query::closest_with_statistics ? "1" : "0"},
              {"STACK_SIZE", std::to_string(stack_size(tree))},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "boxwood/trace.hpp"
+#include "layout/tree_arrays.hpp"
 #include "runtime/launch.hpp"
 
 namespace boxwood {
@@ -14,7 +15,7 @@ enum class Query { closest, closest_with_statistics, any };
 /// more than 2 MiB a ray.
 std::uint32_t stack_entries(std::uint64_t needed);
 
-/// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/walk.h).
+/// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/traversal_state.h).
 std::uint32_t stack_size(const Tree& tree);
 
 /// The kernel for a query on a tree that is not empty.

@@ -19,9 +19,9 @@
 namespace boxwood {
 
 /// What cost functions charge: the test of a child's box at an inner node that is met, and of a primitive of a leaf that
-/// is met (paper 9.1: 2 boxes of price 1 in a binary node).
-inline constexpr double box_price = 1.0;
-inline constexpr double primitive_price = 1.2;
+/// is met (paper 9.1: 2 boxes of cost 1 in a binary node).
+inline constexpr double box_cost = 1.0;
+inline constexpr double primitive_cost = 1.2;
 
 /// A node of a tree of any layout; a leaf has no children.
 struct AnalysisNode {
@@ -41,9 +41,9 @@ struct AnalysisTree {
     std::vector<std::array<glm::vec3, 8>> corners;
 };
 
-/// Tree `tree` of a forest with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in TopDownTree), to
-/// single primitives without any. A tree over no primitives, or that is not in the forest, has no nodes. Waits. O(nodes of the
-/// forest).
+/// Tree `tree` of those with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in TopDownTree), to
+/// single primitives without any. A tree over no primitives, or that is not among them, has no nodes. Waits. O(nodes of all
+/// trees).
 AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                            BufferView<const std::uint32_t> leaves = {}, std::size_t tree = 0);
 
@@ -80,14 +80,14 @@ auto analyze(const AnalysisTree& tree, Data data, PerNode&& per_node, Final&& fi
     return std::forward<Final>(final_action)(data);
 }
 
-/// Figures of one node, in double precision. Chances are those that a ray of the areas meets the box, by their shares:
+/// Figures of one node, in double precision. Probabilities are those that a ray of the areas meets the box, by their shares:
 /// the box's projection (paper section 5; what lies before the rectangle that rays leave is cut off) over that rectangle.
-/// Culled, only what projects into the rectangle counts, which is the chance exactly; else it may pass 1. Overlaps are of the
+/// Culled, only what projects into the rectangle counts, which is the probability exactly; else it may pass 1. Overlaps are of the
 /// projections of each two of the node's children, in the same unit, `smaller` the smaller of the two, each summed over pairs.
 struct NodeMeasures {
-    double surface = 0.0; ///< The chance that an isotropic ray that meets the root does: surface over the root's.
-    double chance = 0.0;
-    double chance_culled = 0.0;
+    double surface = 0.0; ///< The probability that an isotropic ray that meets the root does: surface over the root's.
+    double probability = 0.0;
+    double probability_culled = 0.0;
     double overlap = 0.0;
     double overlap_culled = 0.0;
     double smaller = 0.0;

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "boxwood/buffer.hpp"
-#include "boxwood/requirements.hpp"
-#include "boxwood/scene.hpp"
+#include "boxwood/shading_requirements.hpp"
 #include "shared/light.h"
 #include "shared/material.h"
 

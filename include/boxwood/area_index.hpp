@@ -29,7 +29,7 @@ struct AreaIndex {
     std::uint64_t bytes() const { return nodes.size() * sizeof(AreaNode) + items.size() * sizeof(std::uint32_t); }
 };
 
-/// How far a point at most lies outside the region along each axis where area_contains (cl/hierarchy/influence.h) accepts it, and
+/// How far a point at most lies outside the region along each axis where area_contains (cl/influence/influence.h) accepts it, and
 /// more: that is less than 2^-19 (1 + t) of the extents, t being the tangents.
 float area_rounding(const LocalArea& area);
 

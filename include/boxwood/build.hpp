@@ -9,6 +9,7 @@
 #include "boxwood/device.hpp"
 #include "boxwood/influence.hpp"
 #include "boxwood/morton.hpp"
+#include "boxwood/quality.hpp"
 #include "boxwood/scene.hpp"
 #include "boxwood/tree.hpp"
 
@@ -42,13 +43,6 @@ struct BuildOptions {
     AreaIndexKind area_index = AreaIndexKind::automatic;
     /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.
     bool measure_overlap = false;
-};
-
-/// Sums over the boxes of all binary nodes of one level, leaves included.
-struct LevelQuality {
-    double sum_volume = 0.0;
-    double sum_area = 0.0;
-    double obb_smaller_fraction = 0.0; ///< Share of the nodes that do not keep their AABB.
 };
 
 /// What became of an influence area.

@@ -13,7 +13,7 @@ namespace boxwood {
 /// Mesh for each choice of weights. A skinned mesh is where its joints have it at rest, whatever the transform of its node; for each
 /// node that shows one, and for each whose transform flattens a mesh to a sheet, there is a Mesh in world space with an identity
 /// instance. Animations are not read.
-/// Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of looks cannot
+/// Materials, textures with their pictures (PNG or JPEG) and the lights of KHR_lights_punctual come along; what of materials cannot
 /// be used is replaced or left out with a warning (a picture that is missing, a number out of range). Each extension that the file
 /// uses and that is not read is a warning saying what stands in for it; so is what shows nothing (a mesh that no node shows or
 /// without triangles), and what exporters get wrong without harm (null, references of -1, forbidden strides). Throws InputError

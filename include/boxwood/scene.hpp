@@ -83,7 +83,7 @@ SceneSphere scene_sphere(const Scene& scene);
 
 /// The scene as one mesh in world space with one identity instance, triangles in instance order; instance i's
 /// triangles start at the sum of the triangle counts of the instances before it. Positions are transformed in double
-/// and rounded once (boxwood/rounding.hpp tells what that loses). Of looks nothing is kept: no attributes, materials or lights. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
+/// and rounded once (boxwood/rounding.hpp tells what that loses). Of appearance nothing is kept: no attributes, materials or lights. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
 Scene flatten(const Scene& scene);
 
 } // namespace boxwood

@@ -12,13 +12,13 @@
 namespace boxwood {
 
 /// How a top-down builder splits nodes (paper section 8, thesis 5.1). The strategy is OpenCL functions by name, the caller's own in
-/// `source` (see CONTRIBUTING.md) or these, of cl/hierarchy/strategies.h and distribution.h:
+/// `source` (see CONTRIBUTING.md) or these, of cl/build/strategies.h and distribution.h:
 /// - measures: surface_measure, of rays from everywhere; projected_measure, of the areas' rays; expected_measure, of all;
 /// - costs: measured_cost, of the primitives on both sides; overlap_cost, and of what the sides share;
 /// - axes: longest_axes; facing_axes, those that the areas' rays see edge-on; round_robin_axes, by level; all_axes, alike;
 /// - stops: threshold_stop, by the max_leaf_ thresholds; never.
 struct TopDownOptions {
-    std::string measure = "surface_measure"; ///< Chance that a ray of the distribution meets a box.
+    std::string measure = "surface_measure"; ///< Probability that a ray of the distribution meets a box.
     std::string cost = "measured_cost";      ///< Cost of a pair of children.
     std::string axes = "longest_axes";       ///< Quality of the three axes to split along; they are tried best first.
     std::string stop = "threshold_stop";     ///< Whether a node becomes a leaf.
@@ -26,10 +26,11 @@ struct TopDownOptions {
     std::string fallback_axes = "longest_axes";
     std::string source = {}; ///< OpenCL functions of the caller, compiled into the program before it needs them.
 
-    std::uint32_t bins = 32; ///< Slices of the extent along an axis: 2 to 64.
-    bool bin_box = false;    ///< Slice the node's box (the paper's way), else the box of its primitives' centres.
-    std::uint32_t slice_primitives = 16; ///< Without bin_box n primitives have at most 4 + n / this slices: 1 to 1000.
-    std::uint32_t block = 1; ///< Primitives that a leaf tests at once, 1 or 4: nodes of no more are not split by cost.
+    std::uint32_t bins = 32; ///< Bins along an axis: 2 to 64.
+    bool bin_box = false;    ///< Bins of the node's box (the paper's way), else the box of its primitives' centres.
+    std::uint32_t primitives_per_bin = 16; ///< Without bin_box n primitives have at most 4 + n / this bins: 1 to 1000.
+    std::uint32_t block_size =
+        1; ///< Primitives that a leaf tests at once, 1 or 4: nodes of no more are not split by cost.
 
     // The paper's 8.1.1 and table 1.
     float max_leaf_cost = 0.0f;
@@ -39,8 +40,9 @@ struct TopDownOptions {
     std::uint32_t max_levels = 100;        ///< Below, nodes are halved in the order they have: 1 to 1000.
     std::uint32_t max_non_fallback_levels = 100;
     float split_plane_quality = 0.4f; ///< [0, 1]: axes of less are not tried but for the fallback.
-    float acceptable_children = 1.3f; ///< Chances of the children over the father's, below which no fallback is needed.
-    float excellent_children = 0.0f;  ///< Below which no more axes are tried; 0: all good axes are. The paper's: 0.9.
+    float acceptable_children =
+        1.3f; ///< Probabilities of the children over the parent's, below which no fallback is needed.
+    float excellent_children = 0.0f; ///< Below which no more axes are tried; 0: all good axes are. The paper's: 0.9.
 };
 
 /// A topology with the leaves that the strategy chose; a node whose primitives no plane parts is one too.

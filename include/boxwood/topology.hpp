@@ -9,7 +9,7 @@
 
 namespace boxwood {
 
-/// The shape of a forest of binary trees over n primitives, apart from any volumes. Trees are concatenated: tree t
+/// The shape of binary trees over n primitives, apart from any volumes. Trees are concatenated: tree t
 /// holds the primitives at the sorted positions [offsets[t], offsets[t + 1]), at least one.
 ///
 /// Node indices: inner nodes in [0, n), the leaf of sorted position i is n + i. A tree over positions [a, b) has its

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "boxwood/buffer.hpp"
 #include "boxwood/tree.hpp"
 #include "shared/ray.h"
 

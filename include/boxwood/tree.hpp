@@ -2,41 +2,42 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
-#include "boxwood/buffer.hpp"
+#include "boxwood/device.hpp"
 #include "boxwood/tree_image.hpp"
 
 namespace boxwood {
 
-/// A built tree on a device. Members mean what they mean in TreeImage.
-struct Tree {
-    Layout layout = Layout::wide8;
-    Levels levels = Levels::one;
+namespace detail {
+struct TreeArrays;
+}
 
-    Bounds bounds = Bounds::aabb;
+/// A built tree on a device, for closest_hit, any_hit and render. What it holds in plain arrays is a TreeImage. One that was moved
+/// from may only be assigned to or destroyed.
+class Tree {
+public:
+    Tree(); ///< Without nodes.
+    ~Tree();
+    Tree(Tree&&) noexcept;
+    Tree& operator=(Tree&&) noexcept;
 
-    Buffer<BinaryNode> binary_nodes;
-    Buffer<OrientedNode> oriented_nodes;
-    Buffer<Triangle> triangles;
-    Buffer<Wide8Node> wide_nodes;
-    Buffer<Triangle4> blocks;
+    bool empty() const;    ///< Has no nodes, so that no ray hits anything.
+    Layout layout() const; ///< Never automatic.
+    Levels levels() const; ///< Never automatic.
+    Bounds bounds() const;
+    AreaIndexKind area_index() const; ///< Never automatic; without areas it does not matter.
+    std::uint64_t node_count() const; ///< Of the layout, both levels and all local trees.
+    /// Most nodes on a path from the root to a leaf's parent, both levels added up.
+    std::uint32_t max_depth() const;
 
-    Buffer<BinaryNode> binary_top;
-    Buffer<OrientedNode> oriented_top;
-    Buffer<Wide8Node> wide_top;
-    Buffer<InstanceRecord> instances;
-    Buffer<std::uint32_t> first_triangles;
+    /// For the library.
+    explicit Tree(detail::TreeArrays arrays);
+    detail::TreeArrays& arrays();
+    const detail::TreeArrays& arrays() const;
 
-    Buffer<LocalArea> areas;
-    Buffer<AreaNode> area_nodes; ///< Of TreeImage::area_index, likewise the items.
-    Buffer<std::uint32_t> area_items;
-    AreaIndexKind area_index = AreaIndexKind::list;
-
-    SceneSphere sphere{};
-    std::uint32_t bottom_depth = 0;
-    std::uint32_t top_depth = 0;
-
-    bool empty() const { return binary_nodes.size() + oriented_nodes.size() + wide_nodes.size() == 0; }
+private:
+    std::unique_ptr<detail::TreeArrays> arrays_;
 };
 
 /// Copies a tree to the host; waits.

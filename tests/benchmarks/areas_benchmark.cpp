@@ -71,12 +71,12 @@ void naive_closest_hit(Device& device, const Tree& tree, BufferView<const Ray> r
     kernel.defines["EXIT_RULE"] = "0";
     const Slices slices = cut_rays(device, rays.size());
     const BufferView<RayStatistics> none;
-    const auto run = [&](const auto& nodes, const auto& leaves, const auto& top) {
-        launch(device, kernel, "naive closest hit", slices.slices, nodes, leaves, top, tree.instances, tree.areas,
-               tree.area_nodes, tree.area_items, tree.first_triangles, 0u, rays,
-               static_cast<std::uint32_t>(rays.size()), slices.length, hits, none);
-    };
-    run(tree.wide_nodes, tree.blocks, tree.wide_top);
+    const TreeArrays& arrays = tree.arrays();
+    visit_layout(arrays, [&](const auto& bottom, const auto& top) {
+        launch(device, kernel, "naive closest hit", slices.slices, bottom.nodes, bottom.leaves, top.nodes,
+               arrays.instances, arrays.areas, arrays.area_nodes, arrays.area_items, arrays.first_triangles, 0u, rays,
+               static_cast<std::uint32_t>(rays.size()), slices.length, arrays.sphere, hits, none);
+    });
 }
 
 std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b) {

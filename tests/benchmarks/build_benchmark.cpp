@@ -9,7 +9,7 @@
 #include "benchmark.hpp"
 #include "boxwood/build.hpp"
 #include "boxwood/procedural.hpp"
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood {
 namespace {

@@ -10,10 +10,10 @@
 #include "benchmark.hpp"
 #include "boxwood/geometry.hpp"
 #include "boxwood/volumes.hpp"
-#include "hierarchy/forest.hpp"
+#include "build/trees.hpp"
+#include "common/median.hpp"
 #include "oracles/extreme_meshes.hpp"
 #include "oracles/triangle_box.hpp"
-#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::size_t triangles = 20000;
 struct Case {
     test::ExtremeMesh extreme;
     Geometry geometry;
-    Forest forest;
+    BinaryTrees trees;
 };
 
 /// Every kind but the control.
@@ -40,14 +40,14 @@ Case prepare(Device& device, test::ExtremeMesh extreme) {
     std::vector<Aabb> boxes;
     for (const glm::uvec3& triangle : extreme.mesh.triangles) boxes.push_back(test::box_of(extreme.mesh, triangle));
     Case made{std::move(extreme), upload(device, scene), {}};
-    made.forest = build_forest(device, upload(device, boxes, "boxes"), {0, static_cast<std::uint32_t>(boxes.size())},
-                               MortonBits::bits30);
+    made.trees = lbvh_trees(device, upload(device, boxes, "boxes"), {0, static_cast<std::uint32_t>(boxes.size())},
+                            MortonBits::bits30);
     return made;
 }
 
 double fit_ms(Device& device, const Case& one, Bounds kind) {
     device.take_profile();
-    obb_volumes(device, one.forest.topology, one.forest.volumes, one.geometry, {.kind = kind});
+    obb_volumes(device, one.trees.topology, one.trees.volumes, one.geometry, {.kind = kind});
     return device.take_profile().total_ms();
 }
 
@@ -59,9 +59,9 @@ struct Errors {
 /// Every vertex against every ancestor, in double precision.
 Errors errors_of(Device& device, const Case& one, Bounds kind) {
     const std::vector<Obb> boxes =
-        download(device, obb_volumes(device, one.forest.topology, one.forest.volumes, one.geometry, {.kind = kind}));
-    const std::vector<std::uint32_t> order = download(device, one.forest.topology.order);
-    const std::vector<std::uint32_t> parents = download(device, one.forest.topology.parents);
+        download(device, obb_volumes(device, one.trees.topology, one.trees.volumes, one.geometry, {.kind = kind}));
+    const std::vector<std::uint32_t> order = download(device, one.trees.topology.order);
+    const std::vector<std::uint32_t> parents = download(device, one.trees.topology.parents);
     std::vector<glm::dvec3> farthest(boxes.size(), glm::dvec3(0.0));
     Errors errors;
     for (std::size_t i = 0; i < order.size(); ++i) {

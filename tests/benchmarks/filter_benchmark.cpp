@@ -16,9 +16,9 @@
 #include "boxwood/gltf.hpp"
 #include "boxwood/raster.hpp"
 #include "boxwood/rays.hpp"
-#include "io/picture.hpp"
+#include "common/median.hpp"
 #include "render/camera.hpp"
-#include "runtime/median.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood {
 namespace {

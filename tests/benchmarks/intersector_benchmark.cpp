@@ -114,9 +114,9 @@ Errors compare(const Case& one, const std::vector<Hit>& hits) {
             errors.missed += exact.t >= 0;
             continue;
         }
-        const test::ExactCrossing crossing = test::exact_crossing(one.rays[i], triangles[hits[i].primitive]);
-        errors.false_hits += !crossing.inside;
-        if (crossing.inside) off.push_back(ulps(hits[i].t, crossing.t));
+        const test::ExactHit hit = test::exact_hit(one.rays[i], triangles[hits[i].primitive]);
+        errors.false_hits += !hit.inside;
+        if (hit.inside) off.push_back(ulps(hits[i].t, hit.t));
     }
     if (off.empty()) return errors;
     std::sort(off.begin(), off.end());

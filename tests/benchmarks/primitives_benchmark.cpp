@@ -20,9 +20,9 @@
 #include "benchmark.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/primitives.hpp"
+#include "common/median.hpp"
 #include "runtime/kernel_text.hpp"
 #include "runtime/launch.hpp"
-#include "runtime/median.hpp"
 
 namespace boxwood {
 

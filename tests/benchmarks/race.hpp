@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "boxwood/device.hpp"
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood::benchmarks {
 

@@ -9,9 +9,9 @@
 #include "benchmark.hpp"
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
+#include "common/median.hpp"
 #include "render/both_hits.hpp"
 #include "render/camera.hpp"
-#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {

@@ -13,9 +13,9 @@
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
 #include "boxwood/rays.hpp"
+#include "common/median.hpp"
 #include "render/environment.hpp"
 #include "render/integrators.hpp"
-#include "runtime/median.hpp"
 
 namespace boxwood {
 namespace {

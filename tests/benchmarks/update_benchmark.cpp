@@ -13,7 +13,7 @@
 #include "benchmark.hpp"
 #include "boxwood/procedural.hpp"
 #include "boxwood/update.hpp"
-#include "runtime/median.hpp"
+#include "common/median.hpp"
 
 namespace boxwood {
 namespace {

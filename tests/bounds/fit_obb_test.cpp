@@ -284,7 +284,7 @@ TEST_CASE("fit_obbs: a set scaled by a power of two has the same axes, to the bi
 TEST_CASE("fit_obbs: many segments, cut any way, give the same bytes") {
     Random random(11);
     std::vector<Points> sets;
-    // Segments within, across and over many blocks of 1024.
+    // Segments within, across and over many tiles of 1024.
     for (const std::uint32_t longest : {1, 3, 40, 900, 5000, 40000}) {
         if (small_sizes() && longest > 900) break;
         for (int n = 0; n < 8; ++n)

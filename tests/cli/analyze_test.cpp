@@ -76,10 +76,10 @@ TEST_CASE("analyze: a scene and its .bxw file have the same figures, which add u
         CHECK(nodes.size() == tree["nodes"]);
         double sah = 0.0, pah = 0.0;
         for (const Json& node : nodes) {
-            const double price =
+            const double cost =
                 node["children"] == 0 ? 1.2 * node["primitives"].get<double>() : node["children"].get<double>();
-            sah += price * node["surface"].get<double>();
-            pah += price * node["chance_culled"].get<double>();
+            sah += cost * node["surface"].get<double>();
+            pah += cost * node["probability_culled"].get<double>();
         }
         CHECK(sah == doctest::Approx(tree["sah"].get<double>()));
         CHECK(pah == doctest::Approx(tree["pah_culled"].get<double>()));
@@ -115,7 +115,7 @@ TEST_CASE("analyze: a tree is judged by the areas that it was built with, also o
             double pah = 0.0;
             for (const Json& node : nodes[i]["nodes"])
                 pah +=
-                    node["chance_culled"].get<double>() *
+                    node["probability_culled"].get<double>() *
                     (node["children"] == 0 ? 1.2 * node["primitives"].get<double>() : node["children"].get<double>());
             CHECK(pah == doctest::Approx(built[i]["pah_culled"].get<double>()));
         }

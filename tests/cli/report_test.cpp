@@ -136,11 +136,11 @@ TEST_CASE("report: info as JSON, for a scene and its .bxw file") {
     CHECK(scene["requirements"][2]["because"] == "materials[0] \"soil\" and materials[1] \"bark\" are in use");
 
     tool.succeed("scene materials --triangles 100 -o m.glb");
-    const Json looks = Json::parse(tool.succeed("info m.glb --json").out);
-    CHECK(looks["scene"]["materials"] == 14);
-    CHECK(looks["scene"]["lights"] == 1);
-    CHECK(looks["emitting_triangles"] == 2);
-    CHECK(looks["images"] == Json::parse(R"([{"name": "chequer", "width": 64, "height": 64}])"));
+    const Json materials = Json::parse(tool.succeed("info m.glb --json").out);
+    CHECK(materials["scene"]["materials"] == 14);
+    CHECK(materials["scene"]["lights"] == 1);
+    CHECK(materials["emitting_triangles"] == 2);
+    CHECK(materials["images"] == Json::parse(R"([{"name": "chequer", "width": 64, "height": 64}])"));
     const std::string text = tool.succeed("info m.glb").out;
     for (const char* line :
          {"\"chequer\", 64 x 64", "1 punctual, 2 emitting", "emission: materials[13] \"lamp\" emits light"})

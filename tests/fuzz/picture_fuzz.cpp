@@ -17,7 +17,7 @@
 #pragma GCC diagnostic pop
 
 #include "boxwood/error.hpp"
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 
 using namespace boxwood;
 

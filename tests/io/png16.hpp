@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 
 namespace boxwood::test {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "io/sample_looks.hpp"
+#include "io/sample_materials.hpp"
 
 namespace boxwood::test {
 
@@ -223,7 +223,7 @@ Scene sample_scene() {
     }
     for (std::uint32_t i = 0; i < triangles; ++i) strip.triangles.push_back({i, i + 1, i + 2});
     scene.meshes.push_back(strip);
-    add_looks(scene);
+    add_materials(scene);
     glm::mat4 moved(2.0f); // powers of two: the inverse is exact
     moved[3] = {4.0f, -8.0f, 16.0f, 1.0f};
     scene.instances = {{"a", 0, glm::mat4(1.0f)}, {"", 1, moved}, {"c", 0, moved}};
@@ -298,7 +298,7 @@ bool same(const Scene& a, const Scene& b) {
     return std::ranges::equal(a.meshes, b.meshes, same_mesh) &&
            std::ranges::equal(a.instances, b.instances, instances) &&
            std::ranges::equal(a.cameras, b.cameras, cameras) && bits(a.counts, b.counts) && a.warnings == b.warnings &&
-           same_looks(a, b);
+           same_materials(a, b);
 }
 
 bool same(const TreeImage& a, const TreeImage& b) {

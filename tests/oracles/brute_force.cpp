@@ -32,8 +32,8 @@ struct BruteForce::Local {
 
 namespace {
 
-constexpr std::size_t block = 128;
-/// More triangles than these are skipped by blocks that are far from a ray.
+constexpr std::size_t batch = 128;
+/// More triangles than these are skipped by batches that are far from a ray.
 constexpr std::size_t many = 512;
 
 float largest(const glm::vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
@@ -43,7 +43,7 @@ int power(float x) { return x < 0x1p-126f ? -126 : std::ilogb(x); }
 
 float limited_power(int exponent) { return std::ldexp(1.0f, std::clamp(exponent, -126, 126)); }
 
-/// One triangle in a block: nine columns, and the ray.
+/// One triangle in a batch: nine columns, and the ray.
 struct Point {
     float t, u, v;
 };
@@ -158,28 +158,28 @@ BruteForce::Local::Local(const glm::vec3& origin, const glm::vec3& direction, in
     depth = d[static_cast<int>(z)] * scale;
 }
 
-/// t of `block` triangles from `first` on; returns how many are in (t_min, limit].
-BOXWOOD_CLONES int crossings(const std::array<const float*, 9>& columns, const Plain& plain, float t_min, float limit,
-                             float* __restrict t);
+/// t of `batch` triangles from `first` on; returns how many are in (t_min, limit].
+BOXWOOD_CLONES int count_hits(const std::array<const float*, 9>& columns, const Plain& plain, float t_min, float limit,
+                              float* __restrict t);
 
-BOXWOOD_CLONES int crossings(const std::array<const float*, 9>& columns, const Plain& plain, float t_min, float limit,
-                             float* __restrict t) {
+BOXWOOD_CLONES int count_hits(const std::array<const float*, 9>& columns, const Plain& plain, float t_min, float limit,
+                              float* __restrict t) {
     const Plain ray = plain;
     const float *a = columns[0], *b = columns[1], *c = columns[2], *d = columns[3], *e = columns[4], *f = columns[5],
                 *g = columns[6], *h = columns[7], *k = columns[8];
     int count = 0;
-    for (std::size_t i = 0; i < block; ++i) {
+    for (std::size_t i = 0; i < batch; ++i) {
         t[i] = cross(ray, a[i], b[i], c[i], d[i], e[i], f[i], g[i], h[i], k[i]).t;
         count += int(t[i] > t_min) & int(t[i] <= limit);
     }
     return count;
 }
 
-/// Around the middle of each block's box.
+/// Around the middle of each batch's box.
 std::vector<BruteForce::Ball> BruteForce::make_balls(const std::vector<std::array<glm::vec3, 3>>& triangles) {
     std::vector<Ball> balls;
-    for (std::size_t first = 0; first < triangles.size(); first += block) {
-        const std::size_t end = std::min(first + block, triangles.size());
+    for (std::size_t first = 0; first < triangles.size(); first += batch) {
+        const std::size_t end = std::min(first + batch, triangles.size());
         glm::dvec3 low = triangles[first][0], high = low;
         for (std::size_t i = first; i < end; ++i)
             for (const glm::vec3& p : triangles[i])
@@ -192,7 +192,7 @@ std::vector<BruteForce::Ball> BruteForce::make_balls(const std::vector<std::arra
 BruteForce::Soup BruteForce::make_soup(const std::vector<std::array<glm::vec3, 3>>& triangles) {
     Soup soup;
     soup.count = triangles.size();
-    const std::size_t padded = (triangles.size() + block - 1) / block * block;
+    const std::size_t padded = (triangles.size() + batch - 1) / batch * batch;
     for (auto& column : soup.columns) column.assign(padded, 0.0f);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto& [v0, v1, v2] = triangles[i];
@@ -232,17 +232,17 @@ void BruteForce::search(const Local& ray, std::uint32_t instance, Hit& best) con
     const auto [x, y, z] = ray.axis;
     const auto at = [](const glm::vec3& v, std::size_t i) { return v[static_cast<int>(i)]; };
     const Plain plain{at(o, x), at(o, y), at(o, z), ray.slope.x, ray.slope.y, ray.slope.z, ray.scale, ray.depth};
-    std::array<float, block> t;
-    for (std::size_t first = 0; first < soup.count; first += block) {
+    std::array<float, batch> t;
+    for (std::size_t first = 0; first < soup.count; first += batch) {
         if (!soup.balls.empty()) {
-            const Ball& ball = soup.balls[first / block];
+            const Ball& ball = soup.balls[first / batch];
             if (is_far(ball.middle - origin, ball.radius, direction, double{best.t})) continue;
         }
         std::array<const float*, 9> c;
         for (std::size_t i = 0; i < 9; ++i) c[i] = soup.columns[i / 3 * 3 + ray.axis[i % 3]].data() + first;
         const float limit = std::min(best.t, std::numeric_limits<float>::max());
-        if (crossings(c, plain, ray.t_min, limit, t.data()) == 0) continue;
-        for (std::size_t i = 0; i < block; ++i) {
+        if (count_hits(c, plain, ray.t_min, limit, t.data()) == 0) continue;
+        for (std::size_t i = 0; i < batch; ++i) {
             // The first of equal distances is the lowest (instance, primitive).
             if (!(t[i] > ray.t_min && t[i] <= limit && (t[i] < best.t || best.primitive == BOXWOOD_NONE))) continue;
             const Point p =

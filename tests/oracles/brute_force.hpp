@@ -30,7 +30,7 @@ public:
     std::vector<Hit> closest_hits(std::span<const Ray> rays) const;
 
 private:
-    /// A sphere around a block of triangles.
+    /// A sphere around a batch of triangles.
     struct Ball {
         glm::dvec3 middle;
         double radius;
@@ -39,7 +39,7 @@ private:
     struct Soup {
         std::size_t count = 0;
         std::array<std::vector<float>, 9> columns;
-        std::vector<Ball> balls; ///< Of consecutive blocks; none when every ray is to meet all triangles.
+        std::vector<Ball> balls; ///< Of consecutive batches; none when every ray is to meet all triangles.
     };
     struct Local;
 

@@ -93,7 +93,7 @@ Polygon projection(const InfluenceRecord& area, const Aabb& box, double near) {
     return hull_of(projected);
 }
 
-double reference_chance(const InfluenceRecord& area, const Aabb& box, bool culled, double near) {
+double reference_probability(const InfluenceRecord& area, const Aabb& box, bool culled, double near) {
     const Polygon polygon = projection(area, box, near);
     return area_of(culled ? culled_polygon(polygon) : polygon) / 4;
 }

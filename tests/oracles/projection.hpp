@@ -26,7 +26,7 @@ Polygon cut(const Polygon& polygon, const glm::dvec2& normal, double limit);
 /// The projection, in units of the rectangle's half extents, of what of the box has a depth of at least `near`.
 Polygon projection(const InfluenceRecord& area, const Aabb& box, double near);
 /// Its area over the rectangle's.
-double reference_chance(const InfluenceRecord& area, const Aabb& box, bool culled, double near);
+double reference_probability(const InfluenceRecord& area, const Aabb& box, bool culled, double near);
 
 /// The record of an area with a forward direction that need not be normalised.
 InfluenceRecord make_area(bool point, const glm::dvec3& origin, const glm::dvec3& forward, double half_width,

@@ -38,7 +38,7 @@ float half_surface(const std::array<float, 3>& e, float unit) {
 struct Cut {
     float cost;
     std::size_t larger;
-    float chances;
+    float probabilities;
     List left, right;
 };
 
@@ -59,8 +59,8 @@ struct Recursion {
         return box;
     }
 
-    /// The slice of every primitive along an axis; nothing for an axis without extent.
-    std::vector<std::uint32_t> slices(const List& list, int axis, std::uint32_t count) const {
+    /// The bin of every primitive along an axis; nothing for an axis without extent.
+    std::vector<std::uint32_t> bins_of(const List& list, int axis, std::uint32_t count) const {
         float low = infinity, high = -infinity;
         for (const std::uint32_t i : list) {
             low = std::min(low, options.bin_box ? boxes[i].min[axis] : centre(i, axis));
@@ -79,9 +79,9 @@ struct Recursion {
     }
 
     void try_axis(const List& list, int axis, bool fallback, std::optional<Cut>& best) const {
-        const std::uint32_t few = 4 + static_cast<std::uint32_t>(list.size()) / options.slice_primitives;
+        const std::uint32_t few = 4 + static_cast<std::uint32_t>(list.size()) / options.primitives_per_bin;
         const std::uint32_t count = options.bin_box ? options.bins : std::min(options.bins, few);
-        const std::vector<std::uint32_t> place = slices(list, axis, count);
+        const std::vector<std::uint32_t> bin = bins_of(list, axis, count);
         if (place.empty()) return;
         const auto& measure = fallback ? rules.fallback_measure : rules.measure;
         for (std::uint32_t plane = 1; plane < count; ++plane) {
@@ -91,7 +91,7 @@ struct Recursion {
             const float left = measure(root, box_of(cut.left)), right = measure(root, box_of(cut.right));
             cut.cost = left * rounded(cut.left.size()) + right * rounded(cut.right.size());
             cut.larger = std::max(cut.left.size(), cut.right.size());
-            cut.chances = left + right;
+            cut.probabilities = left + right;
             if (!best || cut.cost < best->cost || (cut.cost == best->cost && cut.larger < best->larger))
                 best = std::move(cut);
         }
@@ -99,7 +99,7 @@ struct Recursion {
 
     /// Of four leaves or fewer, as many as those leaves can hold.
     float rounded(std::size_t size) const {
-        const std::size_t block = options.block;
+        const std::size_t block = options.block_size;
         const std::size_t leaves = size / block + (size % block != 0 ? 1 : 0);
         return static_cast<float>(leaves <= 4 ? leaves * block : size);
     }
@@ -117,10 +117,10 @@ struct Recursion {
         std::uint64_t tried = 0;
         bool fallback = level >= options.max_non_fallback_levels;
         if (!fallback) {
-            const float chance = rules.measure(root, box);
+            const float probability = rules.measure(root, box);
             const auto quality = rules.axes(box, level);
             for (const int axis : by_quality(quality)) {
-                const float ratio = best && chance > 0.0f ? best->chances / chance : infinity;
+                const float ratio = best && probability > 0.0f ? best->probabilities / probability : infinity;
                 if (ratio <= options.excellent_children) break;
                 if (quality[axis] < options.split_plane_quality) {
                     fallback = ratio >= options.acceptable_children;
@@ -148,12 +148,13 @@ struct Recursion {
     }
 
     bool stops(const List& list, std::uint32_t level) const {
-        if (list.size() <= options.block || level >= options.max_levels) return true;
+        if (list.size() <= options.block_size || level >= options.max_levels) return true;
         if (!rules.thresholds) return false;
-        const float chance = rules.measure(root, box_of(list));
+        const float probability = rules.measure(root, box_of(list));
         return list.size() <= options.max_leaf_primitives ||
-               chance * static_cast<float>(list.size()) < options.max_leaf_cost ||
-               chance < options.max_leaf_area * rules.measure(root, root) || chance < options.max_leaf_hit_probability;
+               probability * static_cast<float>(list.size()) < options.max_leaf_cost ||
+               probability < options.max_leaf_area * rules.measure(root, root) ||
+               probability < options.max_leaf_hit_probability;
     }
 
     void build(const List& list, std::uint32_t first, std::uint32_t parent, bool is_left, std::uint32_t level,

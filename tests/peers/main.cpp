@@ -13,9 +13,9 @@
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
 #include "boxwood/trace.hpp"
+#include "common/median.hpp"
 #include "embree_peer.hpp"
 #include "io/atomic_file.hpp"
-#include "runtime/median.hpp"
 #include "workload.hpp"
 
 namespace boxwood::peers {

@@ -77,7 +77,7 @@ TEST_CASE("compact: refuses what does not fit") {
 
 TEST_CASE("compact: memory does not depend on the number of threads") {
     Device& device = test_device();
-    // From so many elements on that the counts of slices take blocks to scan.
+    // From so many elements on that the counts of slices take tiles to scan.
     for (const std::size_t size : {5001u, small_sizes() ? 1u : 1000003u}) {
         CAPTURE(size);
         const auto in = upload(device, random_values<float>(size, 13), "in");

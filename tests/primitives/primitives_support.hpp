@@ -11,13 +11,13 @@
 
 namespace boxwood::test {
 
-/// Elements in a block of the folds (cl/primitives/operator.h).
-inline constexpr std::size_t block = 1024;
+/// Elements in a tile of the folds (cl/primitives/operator.h).
+inline constexpr std::size_t tile = 1024;
 
 /// Around the boundaries of: nothing, one row of 64 scalars, a group of 64, the shortest slice (256 elements), one
-/// block, several blocks, 32 slices of one block, two levels of blocks.
+/// tile, several tiles, 32 slices of one tile, two levels of tiles.
 inline std::vector<std::size_t> boundary_sizes() {
-    if (small_sizes()) return {0, 1, 65, block - 1, block + 1};
+    if (small_sizes()) return {0, 1, 65, tile - 1, tile + 1};
     return std::vector<std::size_t>{0,
                                     1,
                                     15,
@@ -28,17 +28,17 @@ inline std::vector<std::size_t> boundary_sizes() {
                                     255,
                                     256,
                                     257,
-                                    block - 1,
-                                    block,
-                                    block + 1,
-                                    2 * block,
+                                    tile - 1,
+                                    tile,
+                                    tile + 1,
+                                    2 * tile,
                                     5001, //
-                                    32 * block - 1,
-                                    32 * block,
-                                    32 * block + 1,
-                                    block * block - 1,
-                                    block * block,
-                                    block * block + 1};
+                                    32 * tile - 1,
+                                    32 * tile,
+                                    32 * tile + 1,
+                                    tile * tile - 1,
+                                    tile * tile,
+                                    tile * tile + 1};
 }
 
 template <class T>

@@ -57,7 +57,7 @@ TEST_CASE("reduce: more than 2^24 elements, and sums that a running float sum wo
 }
 
 TEST_CASE("reduce: the only element that matters is found wherever it is") {
-    const std::size_t size = 3 * block + 70;
+    const std::size_t size = 3 * tile + 70;
     for (std::size_t place = 0; place < size; place += small_sizes() ? 1009 : 61) {
         std::vector<std::uint32_t> values(size, 5u);
         values[place] = 9u;

@@ -86,7 +86,7 @@ TEST_CASE_TEMPLATE("scan: every type, operator and size", T, std::int32_t, std::
     }
 }
 
-// From several blocks up to three levels of them: within a step, from block to block, and from what is before a block of blocks.
+// From several tiles up to three levels of them: within a step, from tile to tile, and from what is before a tile of tiles.
 TEST_CASE_TEMPLATE("scan: sums of what is not negative never fall", T, float, cl_float4) {
     std::vector<std::size_t> sizes = boundary_sizes();
     if (!small_sizes()) sizes.push_back((std::size_t{1} << 24) / (sizeof(T) / sizeof(float)) + 4099);
@@ -104,12 +104,12 @@ TEST_CASE_TEMPLATE("scan: sums of what is not negative never fall", T, float, cl
     }
 }
 
-TEST_CASE("scan: blocks without negative elements among others are as exact as these") {
-    const std::size_t size = small_sizes() ? 4 * block : block * block + 5 * block;
+TEST_CASE("scan: tiles without negative elements among others are as exact as these") {
+    const std::size_t size = small_sizes() ? 4 * tile : tile * tile + 5 * tile;
     for (const bool inclusive : {false, true}) {
         std::vector<float> values = random_values<float>(size, 11);
         for (std::size_t i = 0; i < size; ++i)
-            if (i / block % 3 != 0) values[i] = i / block % 3 == 1 ? std::abs(values[i]) : -std::abs(values[i]);
+            if (i / tile % 3 != 0) values[i] = i / tile % 3 == 1 ? std::abs(values[i]) : -std::abs(values[i]);
         check_scan(values, scanned(values, Operator::sum, inclusive), Operator::sum, inclusive);
     }
 }

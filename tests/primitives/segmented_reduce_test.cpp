@@ -45,7 +45,7 @@ Offsets offsets_of(const std::vector<std::uint32_t>& lengths, std::uint32_t firs
     return offsets;
 }
 
-/// Lengths that mix nothing, a few, about a block, and many blocks.
+/// Lengths that mix nothing, a few, about a tile, and many tiles.
 Offsets random_offsets(std::size_t count, std::uint64_t salt) {
     Random random(salt);
     Offsets offsets{random.below(3)};
@@ -65,22 +65,22 @@ TEST_CASE_TEMPLATE("segmented_reduce: segments of random lengths", T, std::int32
     for (const Operator op : operators<T>()) check_segments<T>(size, random_offsets(size, 31), op);
 }
 
-TEST_CASE("segmented_reduce: segments at the borders of blocks") {
-    const auto b = static_cast<std::uint32_t>(block);
+TEST_CASE("segmented_reduce: segments at the borders of tiles") {
+    const auto b = static_cast<std::uint32_t>(tile);
     const std::vector<Offsets> cases{
         {0},                            // no segment
         {0, 0},                         // one, empty
         offsets_of({0, 0, 1, 0}),       // a single element among empty segments
-        offsets_of({b}),                // exactly a block
+        offsets_of({b}),                // exactly a tile
         offsets_of({b - 1, 1, 1}),      // up to a border and over it
-        offsets_of({b, b, b}),          // every border is a block's
+        offsets_of({b, b, b}),          // every border is a tile's
         offsets_of({b - 1, 2, b - 1}),  // one element on each side of a border
-        offsets_of({0, b, 0, 0, b, 0}), // empty segments at block borders
+        offsets_of({0, b, 0, 0, b, 0}), // empty segments at tile borders
         offsets_of({3 * b}),
-        offsets_of({1, 3 * b, 1}),              // whole blocks inside
-        offsets_of({5, 2 * b, 0, 2 * b, 7}, 3), // one leaves a block in which another ends; a gap before
+        offsets_of({1, 3 * b, 1}),              // whole tiles inside
+        offsets_of({5, 2 * b, 0, 2 * b, 7}, 3), // one leaves a tile in which another ends; a gap before
         offsets_of({10}, 2 * b),
-        offsets_of({2 * b}, b - 1)}; // blocks before the first segment
+        offsets_of({2 * b}, b - 1)}; // tiles before the first segment
     for (const Offsets& offsets : cases) {
         check_segments<float>(offsets.back(), offsets, Operator::sum);
         if (small_sizes()) continue;
@@ -89,9 +89,9 @@ TEST_CASE("segmented_reduce: segments at the borders of blocks") {
     }
 }
 
-TEST_CASE("segmented_reduce: heads of more than one block of blocks") {
+TEST_CASE("segmented_reduce: heads of more than one tile of tiles") {
     if (small_sizes()) return;
-    const auto level = static_cast<std::uint32_t>(block * block);
+    const auto level = static_cast<std::uint32_t>(tile * tile);
     check_segments<std::uint32_t>(2 * level + 9, offsets_of({level - 1, 2, level, 0, 8}), Operator::sum);
     check_segments<std::uint32_t>(16 * level + 4099, offsets_of({3, 16 * level + 4000, 5}), Operator::sum);
 }

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "boxwood/appearance.hpp"
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 #include "support.hpp"
 
 namespace boxwood::test {

@@ -42,7 +42,7 @@ struct HalfVectors {
 constexpr int cells = 8; // across
 
 /// Integrals of the density over cells of half vectors, by midpoints.
-std::vector<double> told_shares(const Matter& matter, double alpha, const glm::vec3& wo, int across) {
+std::vector<double> told_probabilities(const Matter& matter, double alpha, const glm::vec3& wo, int across) {
     const HalfVectors half_vectors{alpha};
     std::vector<glm::vec3> directions;
     std::vector<double> weights;
@@ -114,7 +114,7 @@ TEST_CASE("bsdf: narrow lobes are drawn with the density that is told, which int
                     below += 1.0 / count;
                 }
             }
-            const std::vector<double> told = told_shares(matter, alpha, wo, across);
+            const std::vector<double> told = told_probabilities(matter, alpha, wo, across);
             // Cells hold a 64th and less, known to a few of so many points, and the grid does not follow the horizon.
             const double bound = small_sizes() ? 2e-2 : 1e-3;
             for (std::size_t i = 0; i < told.size(); ++i) {

@@ -18,18 +18,18 @@ TEST_SUITE_BEGIN("render");
 namespace {
 
 struct Values {
-    std::vector<float> logarithms, shares;
+    std::vector<float> logarithms, fractions;
 };
 
 Values values_of(const std::vector<float>& numbers) {
     Device& device = test_device();
-    const Guarded<float> logarithms(device, numbers.size()), shares(device, numbers.size());
+    const Guarded<float> logarithms(device, numbers.size()), fractions(device, numbers.size());
     launch(device, {"render/elementary_test.cl", "elementary_test"}, "elementary functions", numbers.size(),
-           upload<float>(device, numbers, "numbers"), logarithms.view(), shares.view(),
+           upload<float>(device, numbers, "numbers"), logarithms.view(), fractions.view(),
            static_cast<std::uint32_t>(numbers.size()));
     CHECK(logarithms.intact());
-    CHECK(shares.intact());
-    return {logarithms.values(), shares.values()};
+    CHECK(fractions.intact());
+    return {logarithms.values(), fractions.values()};
 }
 
 /// Positive floats with `steps` per power of two, from the smallest denormal to the largest, both sides of every power of two, and
@@ -50,9 +50,9 @@ std::vector<float> positive_floats(std::uint32_t steps) {
 
 } // namespace
 
-TEST_CASE("elementary: logarithm and absorbed share to the last place") {
+TEST_CASE("elementary: logarithm and absorbed fraction to the last place") {
     std::vector<float> numbers = positive_floats(small_sizes() ? 4 : 1 << 13);
-    // The ends of the share's intervals, at odd multiples of half of log 2.
+    // The ends of the fraction's intervals, at odd multiples of half of log 2.
     for (int k = 1; k < 48; k += 1) {
         const float end = float((k - 0.5) * std::log(2.0));
         numbers.insert(numbers.end(), {std::nextafter(end, 0.0f), end, std::nextafter(end, 100.0f)});
@@ -61,15 +61,15 @@ TEST_CASE("elementary: logarithm and absorbed share to the last place") {
     for (int i = 0; i < (small_sizes() ? 100 : 1 << 20); ++i)
         numbers.push_back(random.uniform(0x1p-24f, i % 2 ? 2.0f : 20.0f));
     const Values found = values_of(numbers);
-    double worst_logarithm = 0, worst_share = 0;
+    double worst_logarithm = 0, worst_fraction = 0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const double x = numbers[i];
         worst_logarithm = std::max(worst_logarithm, ulps(found.logarithms[i], std::log2(x)));
-        worst_share = std::max(worst_share, ulps(found.shares[i], -std::expm1(-x)));
+        worst_fraction = std::max(worst_fraction, ulps(found.fractions[i], -std::expm1(-x)));
     }
     CHECK(worst_logarithm <= 1.0);
-    CHECK(worst_share <= 1.0);
-    MESSAGE("worst in units of the last place: logarithm " << worst_logarithm << ", share " << worst_share);
+    CHECK(worst_fraction <= 1.0);
+    MESSAGE("worst in units of the last place: logarithm " << worst_logarithm << ", fraction " << worst_fraction);
 }
 
 TEST_CASE("elementary: exact where the value is a float, and at the ends") {
@@ -77,6 +77,7 @@ TEST_CASE("elementary: exact where the value is a float, and at the ends") {
     for (int exponent = -149; exponent < 128; ++exponent) powers.push_back(std::ldexp(1.0f, exponent));
     const Values found = values_of(powers);
     for (std::size_t i = 0; i < powers.size(); ++i) CHECK(found.logarithms[i] == float(int(i) - 149));
-    const std::vector<float> shares = values_of({0.0f, 18.0f, 1e30f, std::numeric_limits<float>::infinity()}).shares;
-    CHECK(shares == std::vector<float>{0.0f, 1.0f, 1.0f, 1.0f});
+    const std::vector<float> fractions =
+        values_of({0.0f, 18.0f, 1e30f, std::numeric_limits<float>::infinity()}).fractions;
+    CHECK(fractions == std::vector<float>{0.0f, 1.0f, 1.0f, 1.0f});
 }

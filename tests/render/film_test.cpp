@@ -144,7 +144,7 @@ TEST_CASE("film: a batch adds to its own pixels") {
 }
 
 TEST_CASE("film: one pixel at a time and eight give the same bytes, wherever a batch begins") {
-    constexpr std::uint32_t pixels = 43; // blocks of 8, the last one not full
+    constexpr std::uint32_t pixels = 43; // packets of 8, the last one not full
     struct Batch {
         std::uint32_t first, count;
     };

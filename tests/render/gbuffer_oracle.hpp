@@ -10,7 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "boxwood/scene.hpp"
-#include "io/picture.hpp"
+#include "scene/picture.hpp"
 #include "shared/camera.h"
 #include "shared/ray.h"
 
@@ -143,9 +143,10 @@ inline glm::dvec4 derivatives(const PixelOracle& oracle, const CameraRecord& cam
     const glm::dvec2 first(uv[oracle.corner.x]);
     const glm::dvec2 edges[2] = {glm::dvec2(uv[oracle.corner.y]) - first, glm::dvec2(uv[oracle.corner.z]) - first};
     magnitude = 0.0;
-    constexpr double share = 1e-3;
+    constexpr double fraction = 1e-3;
     const auto change = [&](const glm::dvec3& half) {
-        const glm::dvec3 w = (weights_at(2.0 * share * half) - weights_at(-2.0 * share * half)) / (2.0 * share);
+        const glm::dvec3 w =
+            (weights_at(2.0 * fraction * half) - weights_at(-2.0 * fraction * half)) / (2.0 * fraction);
         magnitude =
             std::max(magnitude, std::fabs(w.y) * glm::length(edges[0]) + std::fabs(w.z) * glm::length(edges[1]));
         return w.y * edges[0] + w.z * edges[1];

@@ -14,9 +14,9 @@
 #include "boxwood/procedural.hpp"
 #include "boxwood/rays.hpp"
 #include "boxwood/trace.hpp"
-#include "io/picture.hpp"
 #include "render/appearance_scenes.hpp"
 #include "render/gbuffer_oracle.hpp"
+#include "scene/picture.hpp"
 #include "support.hpp"
 #include "traverse/scenes.hpp"
 

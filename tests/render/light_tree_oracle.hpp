@@ -30,7 +30,8 @@ inline double node_irradiance(const LightNode& node, const glm::dvec3& place) {
 }
 
 /// Probability of a node's first child.
-inline double first_child_share(const std::vector<LightNode>& nodes, const LightNode& node, const glm::dvec3& place) {
+inline double first_child_probability(const std::vector<LightNode>& nodes, const LightNode& node,
+                                      const glm::dvec3& place) {
     const LightNode &a = nodes[node.children[0]], &b = nodes[node.children[1]];
     if (a.amplitude > 0 && !(b.amplitude > 0)) return 1.0;
     if (b.amplitude > 0 && !(a.amplitude > 0)) return 0.0;
@@ -67,18 +68,18 @@ inline double near_irradiance(const std::vector<LightNode>& nodes, const glm::dv
 }
 
 /// Of environment, distant and near lights: half of them evenly, the rest by irradiance.
-inline std::array<double, 3> light_shares(const std::vector<LightNode>& nodes, double environment,
-                                          const glm::dvec3& place) {
+inline std::array<double, 3> light_probabilities(const std::vector<LightNode>& nodes, double environment,
+                                                 const glm::dvec3& place) {
     const LightRoots roots(nodes);
     const bool some[3] = {environment > 0, roots.distant >= 0, roots.near >= 0};
-    std::array<double, 3> shares = {environment, 0, 0};
-    if (some[1]) shares[1] = std::pow(double(nodes[roots.distant].amplitude), 2.0);
-    if (some[2]) shares[2] = near_irradiance(nodes, place);
-    const double kinds = some[0] + some[1] + some[2], all = shares[0] + shares[1] + shares[2];
-    for (int i = 0; i < 3; ++i) shares[i] = some[i] ? 0.5 / kinds + 0.5 * shares[i] / all : 0.0;
+    std::array<double, 3> probabilities = {environment, 0, 0};
+    if (some[1]) probabilities[1] = std::pow(double(nodes[roots.distant].amplitude), 2.0);
+    if (some[2]) probabilities[2] = near_irradiance(nodes, place);
+    const double kinds = some[0] + some[1] + some[2], all = probabilities[0] + probabilities[1] + probabilities[2];
+    for (int i = 0; i < 3; ++i) probabilities[i] = some[i] ? 0.5 / kinds + 0.5 * probabilities[i] / all : 0.0;
     if (kinds == 1)
-        for (int i = 0; i < 3; ++i) shares[i] = some[i] ? 1.0 : 0.0;
-    return shares;
+        for (int i = 0; i < 3; ++i) probabilities[i] = some[i] ? 1.0 : 0.0;
+    return probabilities;
 }
 
 struct ChosenLight {
@@ -95,11 +96,11 @@ inline ChosenLight choose_light(const std::vector<LightNode>& nodes, std::uint32
     chosen.rest = u;
     std::uint32_t at = root;
     while (at < inner) {
-        const double share = first_child_share(nodes, nodes[at], place);
-        const bool first = chosen.rest < share;
-        chosen.margin = std::min(chosen.margin, std::abs(chosen.rest - share) * chosen.probability);
-        const double part = first ? share : 1.0 - share;
-        chosen.rest = (first ? chosen.rest : chosen.rest - share) / part;
+        const double probability = first_child_probability(nodes, nodes[at], place);
+        const bool first = chosen.rest < probability;
+        chosen.margin = std::min(chosen.margin, std::abs(chosen.rest - probability) * chosen.probability);
+        const double part = first ? probability : 1.0 - probability;
+        chosen.rest = (first ? chosen.rest : chosen.rest - probability) / part;
         chosen.probability *= part;
         at = nodes[at].children[first ? 0 : 1];
     }
@@ -113,8 +114,8 @@ inline double light_probability(const std::vector<LightNode>& nodes, std::uint32
     double probability = 1.0;
     for (std::size_t at = nodes.size() / 2 + light; at != root; at = nodes[at].parent) {
         const LightNode& parent = nodes[nodes[at].parent];
-        const double share = first_child_share(nodes, parent, place);
-        probability *= parent.children[0] == at ? share : 1.0 - share;
+        const double probability = first_child_probability(nodes, parent, place);
+        probability *= parent.children[0] == at ? probability : 1.0 - probability;
     }
     return probability;
 }

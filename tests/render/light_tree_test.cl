@@ -6,7 +6,7 @@
 
 /// For a place, u, the index of a light that is not distant, and the irradiance of an environment that all have (5 components): the
 /// light chosen by u from the root of those that are not distant, what is left of u, its probability, that of the light named, and the
-/// shares of environment, distant and other lights (7). Component k of record i is at k * count + i, count a multiple of LANES.
+/// probabilities of environment, distant and other lights (7). Component k of record i is at k * count + i, count a multiple of LANES.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void light_tree_test(global const LightNode* nodes,
                                                                                     uint lights, float environment,
                                                                                     global const float* questions,
@@ -21,10 +21,10 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void light_tree_t
     for (uint lane = 0; lane < LANES; ++lane) root[lane] = tree.near;
     choose_light(&tree, root, &place, &q[3], chosen, &probability);
     STORE_LANES(TO_WHOLE(q[4]), named);
-    LightShares shares;
-    light_shares(&tree, environment, &place, &shares);
+    LightProbabilities probabilities;
+    light_probabilities(&tree, environment, &place, &probabilities);
     const real found[7] = {
         TO_REAL(LOAD_LANES(chosen)), q[3],           probability, near_probability(&tree, named, &place),
-        shares.environment,          shares.distant, shares.near};
+        probabilities.environment,          probabilities.distant, probabilities.near};
     store_components(found, answers, count, at, 7);
 }

@@ -35,7 +35,7 @@ struct Question {
 struct Answer {
     std::uint32_t light;
     double rest, probability, of_named;
-    std::array<double, 3> shares; ///< Of environment, distant and near lights.
+    std::array<double, 3> probabilities; ///< Of environment, distant and near lights.
 };
 
 /// Some lights being near, and the questions about them.
@@ -181,9 +181,9 @@ TEST_CASE("light tree: what is chosen, and how often, is as in double precision"
                 const glm::dvec3 place(questions[i].place);
                 const double named = light_probability(nodes, root, place, questions[i].light);
                 CHECK(std::abs(answers[i].of_named - named) <= 2e-3 * named);
-                const auto shares = light_shares(nodes, environment, place);
+                const auto probabilities = light_probabilities(nodes, environment, place);
                 // The cut goes another way where two children send about the same.
-                for (int k = 0; k < 3; ++k) CHECK(std::abs(answers[i].shares[k] - shares[k]) <= 1e-2);
+                for (int k = 0; k < 3; ++k) CHECK(std::abs(answers[i].probabilities[k] - probabilities[k]) <= 1e-2);
                 const ChosenLight wanted = test::choose_light(nodes, root, place, questions[i].u);
                 if (wanted.margin < 1e-4) continue;
                 ++compared;
@@ -216,8 +216,10 @@ TEST_CASE("light tree: the probabilities of all lights are positive and add up t
                 CHECK(answer.of_named > 0);
                 CHECK((answer.light >= suns && answer.light < lights.size()));
                 CHECK((answer.rest >= 0 && answer.rest < 1));
-                for (const double share : answer.shares) CHECK((share >= 0.1666 && share <= 0.6667));
-                CHECK(answer.shares[0] + answer.shares[1] + answer.shares[2] == doctest::Approx(1.0).epsilon(1e-6));
+                for (const double probability : answer.probabilities)
+                    CHECK((probability >= 0.1666 && probability <= 0.6667));
+                CHECK(answer.probabilities[0] + answer.probabilities[1] + answer.probabilities[2] ==
+                      doctest::Approx(1.0).epsilon(1e-6));
                 sum += answer.of_named;
             }
             CHECK(std::abs(sum - 1) < 1e-5);
@@ -238,7 +240,7 @@ TEST_CASE("light tree: scenes of another size, by a power of two, choose alike t
             CHECK(a[i].light == b[i].light);
             CHECK(a[i].probability == b[i].probability);
             CHECK(a[i].of_named == b[i].of_named);
-            CHECK(a[i].shares == b[i].shares);
+            CHECK(a[i].probabilities == b[i].probabilities);
         }
     }
 }
@@ -249,15 +251,15 @@ TEST_CASE("light tree: what is near, and what faces a place, is chosen there") {
                                              lamp_at({50, 4, 0}, 1, {0, -1, 0}, 64),
                                              lamp_at({50, 4, 3}, 1, {0, 1, 0}, 64)};
     const std::vector<LightNode> nodes = light_tree(lights);
-    const auto shares = [&](const glm::vec3& place) {
+    const auto probabilities = [&](const glm::vec3& place) {
         std::vector<double> found;
         for (const Answer& answer : ask(nodes, {{place, 0, 1}, {place, 0, 2}, {place, 0, 3}})) {
-            if (found.empty()) found = {answer.shares[1]};
-            found.push_back(answer.shares[2] * answer.of_named);
+            if (found.empty()) found = {answer.probabilities[1]};
+            found.push_back(answer.probabilities[2] * answer.of_named);
         }
         return found;
     };
-    const auto left = shares({-50, 0, 0}), right = shares({50, 0, 0}), far = shares({0, 0, 5000});
+    const auto left = probabilities({-50, 0, 0}), right = probabilities({50, 0, 0}), far = probabilities({0, 0, 5000});
     CHECK(left[1] > 0.6);
     CHECK(right[2] > 0.5);
     CHECK(right[3] < 0.05);

@@ -25,15 +25,15 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void lights_test(
     real p[6], q[4];
     load_components(points, count, at, p, 6);
     const Vector origin = {p[0], p[1], p[2]};
-    LightShares shares;
-    light_shares(&arrays.tree, 0.0f, &origin, &shares);
-    shares.distant *= 0.5f;
-    shares.near *= 0.5f;
+    LightProbabilities probabilities;
+    light_probabilities(&arrays.tree, 0.0f, &origin, &probabilities);
+    probabilities.distant *= 0.5f;
+    probabilities.near *= 0.5f;
     LightSample s;
-    sample_light(&scene, &arrays, &shares, &origin, 0.5f * p[3], p[4], p[5], &s);
+    sample_light(&scene, &arrays, &probabilities, &origin, 0.5f * p[3], p[4], p[5], &s);
     uint index[LANES];
-    real chance, u = 0.5f * p[3];
-    choose_by_shares(&arrays.tree, &shares, &origin, &u, index, &chance);
+    real probability, u = 0.5f * p[3];
+    choose_any_light(&arrays.tree, &probabilities, &origin, &u, index, &probability);
     const real found[12] = {s.segment.x, s.segment.y, s.segment.z, s.t_max, s.direction.x, s.direction.y, s.direction.z,
                             s.value.x, s.value.y, s.value.z, s.pdf, TO_REAL(LOAD_LANES(index))};
     store_components(found, samples, count, at, 12);
@@ -41,6 +41,6 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void lights_test(
     uint instance[LANES], primitive[LANES];
     STORE_LANES(TO_WHOLE(q[0]), instance);
     STORE_LANES(TO_WHOLE(q[1]), primitive);
-    const real density[1] = {2.0f * shares.near * triangle_pdf(&arrays, &origin, instance, primitive, q[2], q[3])};
+    const real density[1] = {2.0f * probabilities.near * triangle_pdf(&arrays, &origin, instance, primitive, q[2], q[3])};
     store_components(density, densities, count, at, 1);
 }

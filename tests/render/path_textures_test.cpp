@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/picture.hpp"
 #include "path_picture.hpp"
 #include "path_scenes.hpp"
 #include "render/appearance_scenes.hpp"
+#include "scene/picture.hpp"
 #include "support.hpp"
 
 using namespace boxwood;

@@ -118,9 +118,9 @@ glm::dvec4 trilinear_at(const Picture& picture, glm::dvec2 uv, double width) {
     const double last = picture.record.levels - 1;
     const double detail = width > 1.0 ? std::min(std::log2(width), last) : 0.0;
     const auto level = static_cast<std::uint32_t>(detail);
-    const double share = detail - level;
+    const double fraction = detail - level;
     const glm::dvec4 fine = bilinear_at(picture, level, uv);
-    return share == 0.0 ? fine : (1.0 - share) * fine + share * bilinear_at(picture, level + 1, uv);
+    return fraction == 0.0 ? fine : (1.0 - fraction) * fine + fraction * bilinear_at(picture, level + 1, uv);
 }
 
 /// The ellipse of a footprint in texels: a 2 x 2 matrix as two complex numbers, one turning with and one against.

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "boxwood/influence.hpp"
-#include "hierarchy/local_trees.hpp"
+#include "build/local_trees.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
 

@@ -192,7 +192,7 @@ TEST_CASE("extremes: t is that of the plane to a few units in the last place, an
         const Mesh one{"", {middle - side - 0.5f * up, middle + side + 0.3f * d - 0.4f * up, middle + up}, {{0, 1, 2}}};
         const Ray ray = ray_from({0, 0, 0}, d);
         const Hit found = BruteForce(single(one), Levels::one).closest_hit(ray);
-        const ExactCrossing exact = exact_crossing(ray, corners(one)[0]);
+        const ExactHit exact = exact_hit(ray, corners(one)[0]);
         REQUIRE((found.primitive == 0) == exact.inside);
         if (exact.inside) CHECK(std::fabs(static_cast<double>(found.t - exact.t)) <= 8 * 0x1p-22);
     }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hierarchy/binary_parts.hpp"
-#include "hierarchy/forest_scene.hpp"
+#include "build/built_trees.hpp"
+#include "layout/triangle_records.hpp"
 #include "oracles/brute_force.hpp"
 #include "oracles/reference_builder.hpp"
 #include "traverse/ray_cost.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 /// A linear BVH whose subtrees of up to `leaf_size` primitives are leaves, on the device and on the host.
 struct Marked {
-    BuiltForest built;
+    BuiltTrees built;
     SceneSphere sphere;
     std::vector<std::array<glm::vec3, 3>> corners;
     std::vector<std::uint32_t> leaves;
@@ -30,7 +30,7 @@ struct Marked {
     Buffer<Triangle> triangles;
 
     Marked(const Scene& scene, std::uint32_t leaf_size)
-        : built(build_forest_of(test_device(), scene)), sphere(scene_sphere(scene)),
+        : built(build_trees_of(test_device(), scene)), sphere(scene_sphere(scene)),
           corners(test::corners(scene.meshes[0])), leaves(built.topology.size()) {
         Device& device = test_device();
         const auto count = built.topology.size();
@@ -39,14 +39,14 @@ struct Marked {
             leaves[i] = span.last - span.first + 1 <= leaf_size ? 1 : 0;
         }
         device_leaves = upload(device, leaves, "leaves");
-        triangles = triangle_records(device, built.forest.topology, built.geometry, {});
+        triangles = triangle_records(device, built.trees.topology, built.geometry, {});
     }
 
     std::vector<RayVisits> visits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
         Device& device = test_device();
         const Guarded<RayVisits> all(device, rays.size());
         const Guarded<Hit> all_hits(device, rays.size());
-        ray_visits(device, {built.forest.topology, built.forest.volumes, device_leaves, triangles, sphere},
+        ray_visits(device, {built.trees.topology, built.trees.volumes, device_leaves, triangles, sphere},
                    upload(device, rays, "rays"), all.view(), all_hits.view());
         CHECK(all.intact());
         CHECK(all_hits.intact());

@@ -11,7 +11,7 @@
 #include "boxwood/build.hpp"
 #include "boxwood/procedural.hpp"
 #include "boxwood/tree_image.hpp"
-#include "hierarchy/forest_scene.hpp"
+#include "build/built_trees.hpp"
 #include "oracles/brute_force.hpp"
 #include "traverse/scenes.hpp"
 #include "tuning.hpp"
@@ -171,7 +171,7 @@ TEST_CASE("scales: instances in one place are built in balance; rays must test t
     BuildReport report;
     build(test_device(), scene, {.layout = Layout::binary}, &report);
     const std::uint32_t one_ball =
-        build(test_device(), single(scene.meshes[0]), {.layout = Layout::binary}).bottom_depth;
+        build(test_device(), single(scene.meshes[0]), {.layout = Layout::binary}).max_depth();
     CHECK(report.max_depth <= one_ball + 14); // 2^13 > 5000
     scene.instances.resize(100);
     check_tests("one place", scene);
