@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
 
     doctest::Context context(static_cast<int>(arguments.size()), arguments.data());
     device_under_test = std::make_unique<Device>(selector);
+    device_under_test->state().checks_arguments = true;
     if (!tuning.empty()) device_under_test->set_tuning(to_tuning(tuning));
     add_kernels(test_kernels);
     const DeviceInfo& info = device_under_test->info();

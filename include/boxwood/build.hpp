@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -75,5 +76,10 @@ struct BuildReport {
 /// but for the sort's passes, the rounds of codes for long runs, the levels of a top-down builder and exact extents
 /// (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
+
+/// The tree of one mesh: triangle t has the vertices positions[triangles[t][k]] and is hit as primitive t of instance 0. Throws
+/// InputError for an index out of range and a position that is not finite or not within largest_coordinate; else as build of a scene.
+Tree build(Device& device, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+           const BuildOptions& options = {}, BuildReport* report = nullptr);
 
 } // namespace boxwood

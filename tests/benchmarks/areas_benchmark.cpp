@@ -117,24 +117,24 @@ Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, cons
     all.insert(all.end(), own.begin(), own.begin() + choice.rays / 2);
     const auto hits_of = [&](const auto& query, const Tree& tree) {
         const Buffer<Ray> rays = upload(device, all, "rays");
-        const Buffer<Hit> hits = make_buffer<Hit>(device, all.size(), "hits");
+        Buffer<Hit> hits = make_buffer<Hit>(device, all.size(), "hits");
         query(tree, rays, hits);
         return download(device, hits);
     };
-    const auto exact = [&](const Tree& tree, const Buffer<Ray>& rays, const Buffer<Hit>& hits) {
+    const auto exact = [&](const Tree& tree, const Buffer<Ray>& rays, Buffer<Hit>& hits) {
         closest_hit(device, tree, rays, hits);
     };
-    const auto naive = [&](const Tree& tree, const Buffer<Ray>& rays, const Buffer<Hit>& hits) {
+    const auto naive = [&](const Tree& tree, const Buffer<Ray>& rays, Buffer<Hit>& hits) {
         naive_closest_hit(device, tree, rays, hits);
     };
     const std::vector<Hit> expected =
         choice.brute_force ? test::BruteForce(scene, Levels::one).closest_hits(all) : hits_of(exact, without);
     result.wrong = count_different(hits_of(exact, with), expected);
-    if (with.areas.size() > 0) result.naive_wrong = count_different(hits_of(naive, with), expected);
+    if (with.arrays().areas.size() > 0) result.naive_wrong = count_different(hits_of(naive, with), expected);
 
     const Buffer<Ray> rays = upload(device, own, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, own.size(), "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, own.size(), "statistics");
+    Buffer<Hit> hits = make_buffer<Hit>(device, own.size(), "hits");
+    Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, own.size(), "statistics");
     const auto count = [&](const Tree& tree, double& tests) {
         closest_hit(device, tree, rays, hits, statistics);
         double local = 0.0;
@@ -149,7 +149,7 @@ Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, cons
     const auto ms =
         benchmarks::race(device,
                          {[&] { exact(without, rays, hits); }, [&] { exact(with, rays, hits); },
-                          [&] { with.areas.size() > 0 ? naive(with, rays, hits) : exact(with, rays, hits); }},
+                          [&] { with.arrays().areas.size() > 0 ? naive(with, rays, hits) : exact(with, rays, hits); }},
                          rounds);
     result.without_ms = ms[0];
     result.with_ms = ms[1];

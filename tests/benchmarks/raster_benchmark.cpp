@@ -51,8 +51,8 @@ Times time_both(Device& device, const Scene& scene, const Camera& camera, std::u
     const Geometry geometry = upload(device, scene);
     const Rasteriser rasteriser(device, scene, tree, geometry);
     const Buffer<CameraRecord> record = upload_camera(device, camera, size, size);
-    const Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, pixels, "hits");
+    Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, pixels, "hits");
     primary_rays(device, record, 0, rays);
     Times times;
     for (int round = -1; round < rounds; ++round) {

@@ -153,9 +153,9 @@ HostTopology run(const Boxes& b, KeyFormat format, bool* untouched = nullptr) {
     const std::vector<Aabb> unit(b.offsets.size() - 1, {{0, 0, 0}, {1, 1, 1}});
     Guarded<Key> keys(device, b.boxes.size());
     Guarded<std::uint32_t> guarded(device, b.boxes.size());
-    morton_keys<Key>(device, boxes, offsets, upload(device, unit, "bounds"), format, keys.view(), guarded.view());
-    radix_sort<Key>(device, keys.view(), guarded.view(), 0, format.key_bits);
-    const Buffer<Gap> gaps = key_gaps<Key>(device, keys.view(), format, unit.size());
+    morton_keys(device, boxes, offsets, upload(device, unit, "bounds"), format, keys.view(), guarded.view());
+    radix_sort(device, keys.view(), guarded.view(), 0, format.key_bits);
+    Buffer<Gap> gaps = key_gaps<Key>(device, keys.view(), format, unit.size());
     const std::vector<std::uint32_t> order_before = guarded.values();
     const std::vector<Gap> gaps_before = download(device, gaps);
     partition_long_runs<Key>(device, boxes, keys.view(), format, offsets, guarded.view(), gaps);

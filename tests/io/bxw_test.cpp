@@ -63,7 +63,7 @@ constexpr std::size_t triangles_section = 2;
 constexpr std::size_t materials_section = 3;
 constexpr std::size_t normals_section = 4;
 constexpr std::size_t uvs_section = 6;
-constexpr std::size_t materials_section = 9;
+constexpr std::size_t looks_section = 9;
 constexpr std::size_t images_section = 10;
 constexpr std::size_t tree_section = 11;
 constexpr std::size_t binary_nodes_section = 12;
@@ -273,11 +273,11 @@ TEST_CASE("counts beyond their section are refused before memory is taken") {
     CHECK(mentions(refusal(seal(sections)), "section scene"));
 
     // Of materials: the materials, the name of the first; and the last 8 bytes are the length of the last image.
-    const std::size_t last = original[materials_section].size() - 8;
+    const std::size_t last = original[looks_section].size() - 8;
     for (const std::size_t offset : {std::size_t{0}, std::size_t{8}, last}) {
         for (const std::uint64_t count : {std::uint64_t{1} << 40, ~std::uint64_t{0}, std::uint64_t{1} << 63}) {
             sections = original;
-            poke(sections[materials_section], offset, count);
+            poke(sections[looks_section], offset, count);
             CHECK(mentions(refusal(seal(sections)), offset == last ? "section images" : "section looks"));
         }
     }
@@ -285,7 +285,7 @@ TEST_CASE("counts beyond their section are refused before memory is taken") {
 
 TEST_CASE("the sections of scene and materials are refused when they are cut at any byte") {
     const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
-    for (const std::size_t section : {scene_section, materials_section}) {
+    for (const std::size_t section : {scene_section, looks_section}) {
         for (std::size_t size = 0; size < original[section].size(); ++size) {
             CAPTURE(size);
             auto sections = original;
@@ -312,8 +312,8 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     CHECK(mentions(hostile([](auto& s) { s[normals_section].clear(); }), "section normals"));
     CHECK(mentions(hostile([](auto& s) { s[images_section][0] = 'G'; }), "images[0]"));
     // Base colour, and the texture of the first input, behind two counts, a name of 10 bytes and the factors.
-    CHECK(mentions(hostile([&](auto& s) { poke(s[materials_section], 26, nan); }), "materials[0].base_color"));
-    CHECK(mentions(hostile([](auto& s) { poke(s[materials_section], 90, 3u); }), "materials[0].base_color_texture"));
+    CHECK(mentions(hostile([&](auto& s) { poke(s[looks_section], 26, nan); }), "materials[0].base_color"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[looks_section], 90, 3u); }), "materials[0].base_color_texture"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 0, 2u); }), "layout"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));

@@ -102,8 +102,8 @@ void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, con
     const std::size_t count = batch.rays.size();
     if (count == 0) return;
     const Buffer<Ray> rays = upload(device, batch.rays, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
-    const Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, count, "flags");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, count, "flags");
     std::vector<Hit> their_hits(count);
     std::vector<std::uint32_t> their_flags(count);
     std::vector<double> times[6]; // theirs, ours, ours portable: closest, then any

@@ -25,7 +25,7 @@ Values values_of(const std::vector<float>& numbers) {
     Device& device = test_device();
     const Guarded<float> logarithms(device, numbers.size()), fractions(device, numbers.size());
     launch(device, {"render/elementary_test.cl", "elementary_test"}, "elementary functions", numbers.size(),
-           upload<float>(device, numbers, "numbers"), logarithms.view(), fractions.view(),
+           upload(device, numbers, "numbers"), logarithms.view(), fractions.view(),
            static_cast<std::uint32_t>(numbers.size()));
     CHECK(logarithms.intact());
     CHECK(fractions.intact());

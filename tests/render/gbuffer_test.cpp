@@ -228,7 +228,7 @@ TEST_CASE("g-buffer: planes of another size are refused") {
     Random random(322);
     Device& device = test_device();
     const Shot shot = shoot(rich_scene(random), inside_camera(true), 4, 3);
-    const Buffer<float> plane = make_buffer<float>(device, 12, "plane");
+    Buffer<float> plane = make_buffer<float>(device, 12, "plane");
     GBuffer planes;
     planes.positions = plane; // a third of what it takes
     const auto run = [&](std::uint32_t samples) {
@@ -246,7 +246,7 @@ TEST_CASE("g-buffer: no pixels are nothing to do; the geometry of another scene 
     Random random(323);
     Device& device = test_device();
     const Shot shot = shoot(rich_scene(random), inside_camera(true), 4, 3);
-    const Buffer<float> plane = make_buffer<float>(device, 12, "plane");
+    Buffer<float> plane = make_buffer<float>(device, 12, "plane");
     fill(device, plane.view(), 7.0f);
     GBuffer planes;
     CHECK_NOTHROW(g_buffer(device, shot.geometry, shot.appearance, shot.record, shot.rays.prefix(0),

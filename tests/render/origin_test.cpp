@@ -72,13 +72,12 @@ Counts count_wrong(const Scene& scene, const BuildOptions& options, const glm::d
         directions.insert(directions.end(), {next.x, next.y, next.z});
     }
     const Buffer<Ray> rays = upload(device, first, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits"),
-                      next_hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits"), next_hits = make_buffer<Hit>(device, count, "hits");
     closest_hit(device, tree, rays, hits);
     const std::vector<Hit> met = download(device, hits);
     Counts counts;
     for (std::uint32_t steps = 0; steps < 2; ++steps) {
-        const Buffer<Ray> next = make_buffer<Ray>(device, count, "next rays");
+        Buffer<Ray> next = make_buffer<Ray>(device, count, "next rays");
         launch(device, {"render/origin_test.cl", "origin_test", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "origin test",
                count, geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
                upload(device, directions, "directions"), count, steps, next);

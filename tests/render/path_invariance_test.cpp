@@ -285,9 +285,9 @@ TEST_CASE("path: no scene, no light, no pixels, and arrays that do not fit") {
     CHECK(take_picture(device, night, camera, {4, 4}, seeded(1, 3)).direct == std::vector<double>(48, 0.0));
 
     const Buffer<CameraRecord> record = upload_camera(device, camera, 2, 2);
-    const Buffer<Ray> rays = make_buffer<Ray>(device, 4, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, 4, "hits");
-    const Buffer<float> light = make_buffer<float>(device, 12, "light");
+    Buffer<Ray> rays = make_buffer<Ray>(device, 4, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, 4, "hits");
+    Buffer<float> light = make_buffer<float>(device, 12, "light");
     const LightOptions options;
     CHECK_THROWS_AS(trace_paths(device, night.world(), options, 0, {record, rays, hits, 0}, {light, light.prefix(9)}),
                     InputError);

@@ -54,10 +54,10 @@ struct Frame {
 inline std::vector<float> batch_light(Device& device, const LitScene& lit, const LightOptions& options,
                                       std::uint32_t sample, BufferView<const CameraRecord> record, std::uint32_t first,
                                       std::uint32_t count) {
-    const Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
-    const Buffer<float> direct = make_buffer<float>(device, 3 * std::size_t{count}, "direct");
-    const Buffer<float> indirect = make_buffer<float>(device, 3 * std::size_t{count}, "indirect");
+    Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<float> direct = make_buffer<float>(device, 3 * std::size_t{count}, "direct");
+    Buffer<float> indirect = make_buffer<float>(device, 3 * std::size_t{count}, "indirect");
     primary_rays(device, record, first, rays);
     closest_hit(device, lit.tree, rays, hits);
     trace_paths(device, lit.world(), options, sample, {record, rays, hits, first}, {direct, indirect});

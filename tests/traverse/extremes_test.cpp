@@ -41,7 +41,7 @@ std::size_t check_trees(const Scene& scene, const std::vector<Ray>& rays) {
     const std::vector<Hit> one = BruteForce(scene, Levels::one).closest_hits(rays);
     const std::vector<Hit> two = BruteForce(scene, Levels::two).closest_hits(rays);
     const Buffer<Ray> queries = upload(device, rays, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     for (const BuildOptions& options : all_trees()) {
         CAPTURE(name(options.levels));
         CAPTURE(name(options.builder));
@@ -192,7 +192,7 @@ TEST_CASE("extremes: t is that of the plane to a few units in the last place, an
         const Mesh one{"", {middle - side - 0.5f * up, middle + side + 0.3f * d - 0.4f * up, middle + up}, {{0, 1, 2}}};
         const Ray ray = ray_from({0, 0, 0}, d);
         const Hit found = BruteForce(single(one), Levels::one).closest_hit(ray);
-        const ExactHit exact = exact_hit(ray, corners(one)[0]);
+        const ExactIntersection exact = exact_intersection(ray, corners(one)[0]);
         REQUIRE((found.primitive == 0) == exact.inside);
         if (exact.inside) CHECK(std::fabs(static_cast<double>(found.t - exact.t)) <= 8 * 0x1p-22);
     }
