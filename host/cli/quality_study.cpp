@@ -49,7 +49,7 @@ void time_builds(Device& device, const Scene& scene, std::vector<KindResult>& ki
 }
 
 /// Counts first: that also compiles nothing that is timed, so one more launch goes before the timed ones.
-void trace_kinds(Device& device, std::vector<KindResult>& kinds, Buffer<Ray>& rays, RayCost KindResult::*cost,
+void trace_kinds(Device& device, std::vector<KindResult>& kinds, const Buffer<Ray>& rays, RayCost KindResult::*cost,
                  Progress& progress) {
     Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     progress.step("counting");

@@ -58,7 +58,7 @@ double median_ms(Device& device, Progress& progress, const Launch& launch_rays) 
     return median(times);
 }
 
-Result trace_closest(Device& device, const Tree& tree, Buffer<Ray>& rays, const TraceOptions& options,
+Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
                      Progress& progress) {
     Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     Result result;
@@ -70,7 +70,8 @@ Result trace_closest(Device& device, const Tree& tree, Buffer<Ray>& rays, const 
     return result;
 }
 
-Result trace_any(Device& device, const Tree& tree, Buffer<Ray>& rays, const TraceOptions& options, Progress& progress) {
+Result trace_any(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
+                 Progress& progress) {
     Buffer<std::uint32_t> hits = make_buffer<std::uint32_t>(device, rays.size(), "hits");
     Result result;
     result.median_ms = median_ms(device, progress, [&] { any_hit(device, tree, rays, hits, options); });
