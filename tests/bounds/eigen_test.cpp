@@ -85,8 +85,9 @@ std::vector<Matrix> sample_matrices(int count) {
     return matrices;
 }
 
-/// A normalised row is off by 3/2 roundoffs for its square (three roundings, under a root), and one each for root, reciprocal
-/// and product: its length by 4.5. The third row has the lengths of two and 3 roundings of its own: its square is off by 24.
+/// A normalised row is off by 3/2 roundoffs for its square (three roundings, under a root), and one each for root,
+/// reciprocal and product: its length by 4.5. The third row has the lengths of two and 3 roundings of its own: its
+/// square is off by 24.
 constexpr double frame_bound = 24;
 
 /// The worst entry of F F^T - I, in units of roundoff; negative when the frame is left-handed.

@@ -175,8 +175,8 @@ TEST_CASE("fit_obbs: clouds against double precision, any size, anywhere") {
             check_valid(box, points);
             const Reference exact = reference(points);
             REQUIRE(exact.gap > 0.05);
-            // Roundoff turns the axes by at most a few of it over the gap; the width of a box changes by the sine of the
-            // turn times the others. The step of the centre's grid adds to each width.
+            // Roundoff turns the axes by at most a few of it over the gap; the width of a box changes by the sine of
+            // the turn times the others. The step of the centre's grid adds to each width.
             const double step = 3 * 0x1p-24 * place.offset / place.size;
             const double bound = 256 * 0x1p-24 / exact.gap + 8 * step;
             CHECK(volume(box) == doctest::Approx(exact.volume).epsilon(bound));

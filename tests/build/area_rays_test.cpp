@@ -88,8 +88,8 @@ double true_exit(const Ray& ray) {
     return time;
 }
 
-/// Rays from points inside, on sides, edges and corners, outside and a little outside; along the area, back, along its sides, and
-/// anywhere; of all lengths.
+/// Rays from points inside, on sides, edges and corners, outside and a little outside; along the area, back, along its
+/// sides, and anywhere; of all lengths.
 std::vector<Ray> random_rays(std::size_t count) {
     Random random(95);
     std::vector<Ray> rays;

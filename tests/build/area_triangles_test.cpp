@@ -35,8 +35,8 @@ std::vector<std::uint32_t> listed(const std::vector<Triangle3>& triangles, const
                                            upload(device, indices, "triangles"), area));
 }
 
-/// Whether the triangle reaches into the region, each of whose sides is moved outwards by `margin` times the sum of its normal's
-/// magnitudes in the area's coordinates.
+/// Whether the triangle reaches into the region, each of whose sides is moved outwards by `margin` times the sum of its
+/// normal's magnitudes in the area's coordinates.
 bool reaches(const Triangle3& triangle, const InfluenceRecord& area, double margin) {
     const double w = area.half_width, h = area.half_height;
     std::vector<glm::dvec3> polygon;
@@ -77,8 +77,8 @@ double margin_of(const Triangle3& triangle, const InfluenceRecord& area) {
     return 0x1p-16 * (size + area.far + (area.point != 0 ? area.far * sides : sides)) * spread * spread;
 }
 
-/// Triangles of all sizes in and about a region: also slivers, lines and points, large ones that cross it with no corner or edge
-/// inside, and some that touch its sides, edges or corners from outside.
+/// Triangles of all sizes in and about a region: also slivers, lines and points, large ones that cross it with no
+/// corner or edge inside, and some that touch its sides, edges or corners from outside.
 std::vector<Triangle3> random_triangles(Random& random, const InfluenceRecord& area, double scale, int count) {
     const std::array<glm::dvec3, 8> points = corners(area);
     glm::dvec3 middle(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Codes within long runs of equal codes, against codes in double precision. All centres are multiples of powers of two in
-// cubes whose sides are powers of two, so that every code is exact in float too.
+// Codes within long runs of equal codes, against codes in double precision. All centres are multiples of powers of two
+// in cubes whose sides are powers of two, so that every code is exact in float too.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -15,14 +15,14 @@ namespace {
 // Small: what is tested is not the light. Many samples: it must not end before it is ended.
 const std::string picture = "render room.glb -o x.exr --resolution 12x8 --spp 400 --depth 2 --quiet --checkpoint 0 ";
 
-/// Shell code that runs `command` once the first checkpoint of the tool, which takes the shell's place, is there; given up after a
-/// while.
+/// Shell code that runs `command` once the first checkpoint of the tool, which takes the shell's place, is there; given
+/// up after a while.
 std::string after_checkpoint(const std::string& command) {
     return "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; " + command + ") &";
 }
 
-/// A linker that sends Ctrl-C's signal to whoever called it and to itself when it links `kernel`, once, and goes on where it survives
-/// that. (dash, the usual sh, would let signals through that its caller blocks.)
+/// A linker that sends Ctrl-C's signal to whoever called it and to itself when it links `kernel`, once, and goes on
+/// where it survives that. (dash, the usual sh, would let signals through that its caller blocks.)
 std::string linker(const std::string& kernel) {
     return R"(#!/bin/bash
 for word; do

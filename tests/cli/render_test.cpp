@@ -26,7 +26,8 @@ void make_scenes(const Tool& tool) {
     tool.succeed("scene forest --instances 20 -o forest.glb");
 }
 
-/// Shell code that ends the tool, which takes the shell's place, once its first checkpoint is there; given up after a while.
+/// Shell code that ends the tool, which takes the shell's place, once its first checkpoint is there; given up after a
+/// while.
 const std::string end_after_checkpoint =
     "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; kill -TERM $$) &";
 

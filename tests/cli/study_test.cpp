@@ -22,10 +22,10 @@ namespace {
 constexpr const char* three_areas = R"([
  {"scene": "Random100", "area": "plane", "orientation": "parallel", "kind": "plane", "point": [5, 5, -4],
   "direction": [0, 0, 1], "half_width": 5, "half_height": 5, "length": 20},
- {"scene": "Random100", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3], "direction": [1, 0, 1],
-  "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20},
- {"scene": "Atlantis", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3], "direction": [1, 0, 1],
-  "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20}])";
+ {"scene": "Random100", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3],
+  "direction": [1, 0, 1], "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20},
+ {"scene": "Atlantis", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3],
+  "direction": [1, 0, 1], "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20}])";
 
 constexpr const char* head =
     "scene,area,orientation,builder,estimated_pah_cost,estimated_sah_cost,real_cost_local,more,"

@@ -169,8 +169,8 @@ TEST_CASE("area index: words, no areas, and the choice by their number") {
 }
 
 TEST_CASE("area index: a point beside a region by less than coordinates can tell is found in every kind") {
-    // Floats are 2^-3 apart here. The octree's first split in x is the float that the first region misses by 2^-21, which is within
-    // the rounding of area_contains.
+    // Floats are 2^-3 apart here. The octree's first split in x is the float that the first region misses by 2^-21,
+    // which is within the rounding of area_contains.
     std::vector<InfluenceArea> areas(2);
     for (InfluenceArea& area : areas) area.direction = {0, 0, 1};
     areas[0].origin.x = 0x1p20;

@@ -33,8 +33,8 @@ std::vector<std::pair<glm::dvec3, double>> planes_of(const InfluenceRecord& area
             {w * forward - right, 0}, {h * forward + up, 0}, {h * forward - up, 0}};
 }
 
-/// Whether a part of the box is inside the region, moved outwards by `margin`: its faces are cut by the planes. A region inside
-/// the box shows by its corners.
+/// Whether a part of the box is inside the region, moved outwards by `margin`: its faces are cut by the planes. A
+/// region inside the box shows by its corners.
 bool meets(const InfluenceRecord& area, const Aabb& box, double margin) {
     for (const glm::dvec3& corner : corners(area)) {
         bool inside = true;

@@ -48,7 +48,8 @@ std::vector<float> probabilities(const std::vector<Case>& cases) {
                       upload(test_device(), areas_of(cases), "areas"), upload(test_device(), boxes_of(cases), "boxes"));
 }
 
-/// How far apart a probability and the reference may be (projected_area.h), and the references for depths a little to both sides.
+/// How far apart a probability and the reference may be (projected_area.h), and the references for depths a little to
+/// both sides.
 struct Allowed {
     double least[2], most[2];
     bool sum[2];   ///< The faces were summed: the error is relative.
@@ -126,7 +127,8 @@ TEST_CASE("the probability of a box is that of the hull of its corners, cut to t
 }
 
 TEST_CASE("the hull table has the outline of a box seen from anywhere") {
-    // The 26 positions about a box, some of them close to it and some far; the outline is a hull that brute force knows.
+    // The 26 positions about a box, some of them close to it and some far; the outline is a hull that brute force
+    // knows.
     std::vector<float> eyes;
     std::vector<Aabb> boxes;
     for (const float away : {0.01f, 1.0f, 40.0f})

@@ -133,7 +133,8 @@ TEST_CASE("the file on disk has the documented layout") {
     CHECK(bytes.substr(8, 4) == std::string("\x05\0\0\0", 4));  // version 5, little-endian
     CHECK(bytes.substr(12, 4) == std::string("\x19\0\0\0", 4)); // twenty-five sections
     CHECK(std::string(bytes.data() + 32) == "scene");
-    // 32 bytes of header and 25 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    // 32 bytes of header and 25 entries of 48, then one section of no known size before the positions of 3 + 39
+    // vertices.
     const auto table = table_of(bytes);
     CHECK(table[0].offset == 1232);
     CHECK(table[1].size == 42 * 12);

@@ -18,9 +18,11 @@ TEST_SUITE_BEGIN("io");
 namespace {
 
 const std::string plane =
-    R"({"kind": "plane", "point": [1, 2, 3], "direction": [0, 0, -2], "half_width": 4, "half_height": 5, "length": 6, "rays": 9})";
+    R"({"kind": "plane", "point": [1, 2, 3], "direction": [0, 0, -2], "half_width": 4, "half_height": 5, "length": 6,)"
+    R"( "rays": 9})";
 const std::string point =
-    R"({"kind": "point", "eye": [1, 2, 3], "direction": [1, 0, 0], "fov_x_degrees": 90, "fov_y_degrees": 60, "near": 0.5, "far": 8})";
+    R"({"kind": "point", "eye": [1, 2, 3], "direction": [1, 0, 0], "fov_x_degrees": 90, "fov_y_degrees": 60,)"
+    R"( "near": 0.5, "far": 8})";
 
 /// `text` with the first `from` replaced.
 std::string with(std::string text, const std::string& from, const std::string& to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays against triangles in 113-bit arithmetic, where nothing of what floats say is rounded for coordinates within some 2^16 of each
-// other.
+// Rays against triangles in 113-bit arithmetic, where nothing of what floats say is rounded for coordinates within some
+// 2^16 of each other.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace boxwood::test {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// Whether the ray's line meets the triangle, edges and corners included, and the parameter where it meets its plane; 0 where it is
-/// parallel to that.
+/// Whether the ray's line meets the triangle, edges and corners included, and the parameter where it meets its plane; 0
+/// where it is parallel to that.
 struct ExactHit {
     bool inside = false;
     __float128 t = 0;

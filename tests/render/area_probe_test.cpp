@@ -186,8 +186,8 @@ TEST_CASE("areas are judged one by one, those that light nothing among them") {
         CHECK(judged[i].area.share == areas[i].share);
         CHECK(judged[i].rays == "shadow");
         if (i > 0) CHECK(judged[i].count == 256);
-        // Nothing is between the floor and where the area's rays leave, so that local trees answer no ray: they are not kept,
-        // though there is less to test.
+        // Nothing is between the floor and where the area's rays leave, so that local trees answer no ray: they are not
+        // kept, though there is less to test.
         if (i > 0) CHECK(judged[i].local_cost < judged[i].global_cost);
         CHECK(!judged[i].kept);
     }

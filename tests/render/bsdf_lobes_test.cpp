@@ -177,7 +177,8 @@ TEST_CASE("bsdf: mixtures of lobes return what single scattering does") {
                 const glm::dvec3 expected = albedo(m, cosine, across);
                 for (int c = 0; c < 3; ++c) {
                     CHECK(std::abs(mean[c] - expected[c]) < (small_sizes() ? 0.06 : 3e-3));
-                    // The specification's coat over a Lambert lobe gives more than it gets: 1.44 for white at cosine 0.1.
+                    // The specification's coat over a Lambert lobe gives more than it gets: 1.44 for white at cosine
+                    // 0.1.
                     if (m.metallic == 1.0f || m.specular == 0.0f) CHECK(expected[c] < 1.0 + 1e-6);
                 }
             }

@@ -80,8 +80,8 @@ Planes planes_of(const Shot& shot, unsigned bits, TextureFilter filter) {
             derivatives.values(), materials.values(), instances.values(), primitives.values()};
 }
 
-/// Meshes with all attributes, placed turned, mirrored and sheared, of materials with a picture of 4 x 4 for colour, of which one
-/// also bends normals by the same everywhere.
+/// Meshes with all attributes, placed turned, mirrored and sheared, of materials with a picture of 4 x 4 for colour, of
+/// which one also bends normals by the same everywhere.
 Scene rich_scene(Random& random) {
     Scene scene = instanced_scene(random, 3, small_sizes() ? 3 : 9, small_sizes() ? 20 : 80);
     const auto unit_vector = [&] {
@@ -160,7 +160,8 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
             }
             const PixelOracle oracle(shot.scene, rays[i], hits[i]);
             REQUIRE(planes.materials[i] == oracle.mesh.materials[hits[i].primitive]);
-            // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of them.
+            // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of
+            // them.
             constexpr double rounding = 8 * 0x1p-24;
             double growth = 0.0, magnitude = 0.0;
             REQUIRE(off(planes.positions, i, oracle.position()) <= rounding * oracle.magnitude());

@@ -29,8 +29,8 @@ LightOptions seeded(std::uint32_t samples, std::uint32_t depth) {
 
 bool same(const Picture& a, const Picture& b) { return a.direct == b.direct && a.indirect == b.indirect; }
 
-/// Means agree to four standard errors of some ten pictures, which are at most `share` of them. Under a checker there are too
-/// few paths for that.
+/// Means agree to four standard errors of some ten pictures, which are at most `share` of them. Under a checker there
+/// are too few paths for that.
 void check_agree(const Estimate& a, const Estimate& b, double share) {
     const double error = std::hypot(a.error, b.error);
     CHECK(std::isfinite(a.mean + error));
@@ -39,7 +39,8 @@ void check_agree(const Estimate& a, const Estimate& b, double share) {
     CHECK(error <= share * b.mean);
 }
 
-/// The Cornell box with a point light and a spot beside its lamp, a smooth sphere placed by a turned transform, and a veil.
+/// The Cornell box with a point light and a spot beside its lamp, a smooth sphere placed by a turned transform, and a
+/// veil.
 Scene rich_scene() {
     Scene scene = cornell_scene();
     Light point;
@@ -191,8 +192,8 @@ TEST_CASE("path: scene and lights scaled by a power of two give the same picture
 }
 
 TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
-    // A lopsided ball of two materials with normals, one of them shining to its front, on a floor: placed by a transform of
-    // negative determinant, and built of mirrored vertices with the sense of its triangles turned.
+    // A lopsided ball of two materials with normals, one of them shining to its front, on a floor: placed by a
+    // transform of negative determinant, and built of mirrored vertices with the sense of its triangles turned.
     Mesh ball = sphere_mesh(small_sizes() ? 4 : 10, true);
     for (std::size_t i = 0; i < ball.positions.size(); ++i) {
         ball.positions[i] = ball.positions[i] * glm::vec3(0.5f, 0.7f, 0.4f) + glm::vec3(0.3f, 0.8f, 0.1f);
@@ -236,8 +237,8 @@ TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
 
 TEST_CASE("path: nothing that is not light, whatever the scene is like") {
     Scene scene = rich_scene();
-    // Normals of zero, triangles without area that shine, lights in surfaces, at one another's place, of no intensity, and so
-    // strong that their light passes the range of float.
+    // Normals of zero, triangles without area that shine, lights in surfaces, at one another's place, of no intensity,
+    // and so strong that their light passes the range of float.
     for (std::size_t i = 0; i < scene.meshes[8].normals.size(); i += 2) scene.meshes[8].normals[i] = glm::vec3(0.0f);
     const auto shining = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(lamp(glm::vec3(1.0f)));

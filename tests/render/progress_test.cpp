@@ -140,8 +140,8 @@ TEST_CASE("render: a picture grows to what render() gives, and goes on from a st
 }
 
 TEST_CASE("render: a sample that is broken off is taken for the rest of the pixels, and no state") {
-    // Paths that leave the picture's top rows all meet nothing, those of later batches not: only these need the program that is
-    // broken for a while.
+    // Paths that leave the picture's top rows all meet nothing, those of later batches not: only these need the program
+    // that is broken for a while.
     Painter painter(Integrator::path, 3);
     painter.options.light.strategy = Strategy::bsdf;
     painter.options.batch = 2 * width;

@@ -40,9 +40,9 @@ TEST_CASE("areas: a hit in the local tree beyond the region is not the closest")
 }
 
 TEST_CASE("areas: a grazed triangle just beyond the region is not lost") {
-    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates. It begins at
-    // z = 1.005, farther from the region, which ends at 1, than local trees reach, and no hit may be said to be before. A small one
-    // inside makes the tree.
+    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates.
+    // It begins at z = 1.005, farther from the region, which ends at 1, than local trees reach, and no hit may be said
+    // to be before. A small one inside makes the tree.
     Random random(54);
     std::size_t beyond = 0, before = 0;
     for (int i = 0; i < (small_sizes() ? 2 : 20); ++i) {

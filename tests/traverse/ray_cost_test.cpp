@@ -144,7 +144,8 @@ TEST_CASE("ray cost: every count is that of plain recursion, hits are those of b
             CHECK(count_different(hits, BruteForce(scene, Levels::one).closest_hits(rays)) == 0);
             std::size_t wrong = 0, compared = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                // Where rounding may decide, that is where a little wider or narrower boxes give other counts, nothing is said.
+                // Where rounding may decide, that is where a little wider or narrower boxes give other counts, nothing
+                // is said.
                 const Reference wide(tree, rays[i], 1e-5), narrow(tree, rays[i], -1e-5);
                 if (!same(wide.visits, narrow.visits)) continue;
                 ++compared;

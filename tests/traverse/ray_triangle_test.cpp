@@ -41,7 +41,8 @@ std::vector<Ray> scaled(std::vector<Ray> rays, int k) {
 } // namespace
 
 TEST_CASE("brute force: of many triangles, the hit that double precision finds among all") {
-    // Clusters, so that most blocks of triangles are far from a ray, and instances that are turned, stretched and mirrored.
+    // Clusters, so that most blocks of triangles are far from a ray, and instances that are turned, stretched and
+    // mirrored.
     Random random(22);
     Scene scene = instanced_scene(random, 2, small_sizes() ? 2 : 5, 0);
     for (Mesh& mesh : scene.meshes) {
