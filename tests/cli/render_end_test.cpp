@@ -47,7 +47,7 @@ std::string unbroken(const Tool& tool) {
 
 } // namespace
 
-TEST_CASE("render tool: a terminal that is gone ends a render as SIGTERM does, but not under nohup") {
+TEST_CASE("render_end: a terminal that is gone ends a render as SIGTERM does, but not under nohup") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     check_failure(tool.run(picture, after_checkpoint("kill -HUP $$")), 130, "--resume");
@@ -58,7 +58,7 @@ TEST_CASE("render tool: a terminal that is gone ends a render as SIGTERM does, b
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: a picture that cannot be written in the end leaves its samples to --resume") {
+TEST_CASE("render_end: a picture that cannot be written in the end leaves its samples to --resume") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     check_failure(tool.run(picture, after_checkpoint("mkdir x.exr")), 1,
@@ -71,7 +71,7 @@ TEST_CASE("render tool: a picture that cannot be written in the end leaves its s
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: where a disk is full in the end, the last checkpoint stays and is named") {
+TEST_CASE("render_end: where a disk is full in the end, the last checkpoint stays and is named") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     // A limit on the size of files stands for the disk.
@@ -86,7 +86,7 @@ TEST_CASE("render tool: where a disk is full in the end, the last checkpoint sta
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: Ctrl-C while PoCL links a kernel is code 130") {
+TEST_CASE("render_end: Ctrl-C while PoCL links a kernel is code 130") {
     // Ctrl-C reaches every process of the terminal, the linker too. PATH has one that sends it before the system's.
     for (const std::string kernel : {"radix_count", "film_add"}) { // while a tree is built, and in the first sample
         CAPTURE(kernel);

@@ -96,7 +96,7 @@ Allowed allowed(const Case& c) {
 
 } // namespace
 
-TEST_CASE("the probability of a box is that of the hull of its corners, cut to the rectangle") {
+TEST_CASE("projected_area: the probability of a box is that of the hull of its corners, cut to the rectangle") {
     Random random(81);
     std::vector<Case> cases;
     const int count = small_sizes() ? 40 : 20000;
@@ -126,7 +126,7 @@ TEST_CASE("the probability of a box is that of the hull of its corners, cut to t
     }
 }
 
-TEST_CASE("the hull table has the outline of a box seen from anywhere") {
+TEST_CASE("projected_area: the hull table has the outline of a box seen from anywhere") {
     // The 26 positions about a box, some of them close to it and some far; the outline is a hull that brute force
     // knows.
     std::vector<float> eyes;
@@ -172,7 +172,7 @@ TEST_CASE("the hull table has the outline of a box seen from anywhere") {
     }
 }
 
-TEST_CASE("the probability of a box is the share of random rays from the rectangle that meet it") {
+TEST_CASE("projected_area: the probability of a box is the share of random rays from the rectangle that meet it") {
     Random random(83);
     const int count = small_sizes() ? 6 : 60, rays = small_sizes() ? 2000 : 20000;
     std::vector<Case> cases;
@@ -210,7 +210,7 @@ TEST_CASE("the probability of a box is the share of random rays from the rectang
     }
 }
 
-TEST_CASE("the measures add up the areas and the isotropic rays") {
+TEST_CASE("projected_area: the measures add up the areas and the isotropic rays") {
     Random random(85);
     const Aabb root = {{-3, -2, -4}, {3, 5, 4}};
     std::vector<InfluenceRecord> areas;
@@ -249,7 +249,8 @@ TEST_CASE("the measures add up the areas and the isotropic rays") {
     }
 }
 
-TEST_CASE("probabilities at the extremes are in range, and those of the same shape at any size are the same") {
+TEST_CASE("projected_area: probabilities at the extremes are in range, and those of the same shape at any size are the "
+          "same") {
     Random random(86);
     std::vector<Case> cases;
     const int count = small_sizes() ? 10 : 2000;
@@ -298,7 +299,7 @@ TEST_CASE("probabilities at the extremes are in range, and those of the same sha
     }
 }
 
-TEST_CASE("an area's own ray through a point") {
+TEST_CASE("projected_area: an area's own ray through a point") {
     Random random(87);
     std::vector<InfluenceRecord> areas;
     std::vector<float> points;

@@ -113,7 +113,8 @@ AnalysisTree family(const std::vector<Aabb>& children) {
 
 } // namespace
 
-TEST_CASE("projection: its share of the rectangle is the share of rays that meet the box, and likewise of two boxes") {
+TEST_CASE("analysis: projection: its share of the rectangle is the share of rays that meet the box, and likewise of "
+          "two boxes") {
     Random random(31);
     const int side = small_sizes() ? 40 : 300, cases = small_sizes() ? 6 : 60;
     for (int i = 0; i < cases; ++i) {

@@ -63,7 +63,7 @@ Scene rich_scene() {
 
 } // namespace
 
-TEST_CASE("path: the Cornell box is as bright by every strategy, sampler and hemisphere") {
+TEST_CASE("path_invariance: the Cornell box is as bright by every strategy, sampler and hemisphere") {
     const LitScene lit(test_device(), cornell_scene());
     const Camera camera = cornell_scene().cameras[0];
     const Frame frame{small_sizes() ? 2u : 24u, small_sizes() ? 2u : 24u};
@@ -89,7 +89,7 @@ TEST_CASE("path: the Cornell box is as bright by every strategy, sampler and hem
     }
 }
 
-TEST_CASE("path: a lamp and a sky together are as bright by every strategy") {
+TEST_CASE("path_invariance: a lamp and a sky together are as bright by every strategy") {
     Scene scene;
     add_floor(scene, metal({0.9f, 0.8f, 0.7f}, 0.6f));
     add_quad(scene, {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, lamp(glm::vec3(3.0f)));
@@ -119,7 +119,7 @@ TEST_CASE("path: a lamp and a sky together are as bright by every strategy") {
     check_agree(bsdf, hazy_both, 0.005);
 }
 
-TEST_CASE("path: a lamp under a roof gives the same light when a sun shines on the roof") {
+TEST_CASE("path_invariance: a lamp under a roof gives the same light when a sun shines on the roof") {
     // The sun gives off 10^10 times as much: by power alone, in float, the lamp would never be chosen.
     Scene scene;
     add_floor(scene, matt(glm::vec3(0.8f)));
@@ -144,7 +144,7 @@ TEST_CASE("path: a lamp under a roof gives the same light when a sun shines on t
     if (!small_sizes()) CHECK(both.error < 0.03 * alone.mean);
 }
 
-TEST_CASE("path: the same bytes for any cut of the work and any order of the pixels") {
+TEST_CASE("path_invariance: the same bytes for any cut of the work and any order of the pixels") {
     const Scene scene = rich_scene();
     const LitScene lit(test_device(), scene, default_sky());
     const std::uint32_t across = small_sizes() ? 3 : 13; // no multiple of a batch or a slice
@@ -167,7 +167,7 @@ TEST_CASE("path: the same bytes for any cut of the work and any order of the pix
     CHECK(!same(take_picture(test_device(), lit, scene.cameras[0], {across, across}, other), whole));
 }
 
-TEST_CASE("path: memory does not depend on the number of threads") {
+TEST_CASE("path_invariance: memory does not depend on the number of threads") {
     const Scene scene = rich_scene();
     const LitScene lit(test_device(), scene, default_sky());
     const std::uint32_t across = small_sizes() ? 4 : 64;
@@ -176,7 +176,7 @@ TEST_CASE("path: memory does not depend on the number of threads") {
     });
 }
 
-TEST_CASE("path: scene and lights scaled by a power of two give the same picture") {
+TEST_CASE("path_invariance: scene and lights scaled by a power of two give the same picture") {
     const Scene scene = rich_scene();
     const std::uint32_t across = small_sizes() ? 2 : 12;
     const auto take = [&](const Scene& s) {
@@ -191,7 +191,7 @@ TEST_CASE("path: scene and lights scaled by a power of two give the same picture
     }
 }
 
-TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
+TEST_CASE("path_invariance: a mirrored instance is lit as the mirrored mesh is") {
     // A lopsided ball of two materials with normals, one of them shining to its front, on a floor: placed by a
     // transform of negative determinant, and built of mirrored vertices with the sense of its triangles turned.
     Mesh ball = sphere_mesh(small_sizes() ? 4 : 10, true);
@@ -235,7 +235,7 @@ TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
     check_agree(second, first, 0.005);
 }
 
-TEST_CASE("path: nothing that is not light, whatever the scene is like") {
+TEST_CASE("path_invariance: nothing that is not light, whatever the scene is like") {
     Scene scene = rich_scene();
     // Normals of zero, triangles without area that shine, lights in surfaces, at one another's place, of no intensity,
     // and so strong that their light passes the range of float.
@@ -268,7 +268,7 @@ TEST_CASE("path: nothing that is not light, whatever the scene is like") {
         }
 }
 
-TEST_CASE("path: no scene, no light, no pixels, and arrays that do not fit") {
+TEST_CASE("path_invariance: no scene, no light, no pixels, and arrays that do not fit") {
     Device& device = test_device();
     const LitScene nothing(device, Scene{});
     const Camera camera = cornell_scene().cameras[0];

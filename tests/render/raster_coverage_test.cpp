@@ -64,7 +64,7 @@ void check_filled(const Scene& scene, const Camera& camera, std::uint32_t width,
 
 } // namespace
 
-TEST_CASE("raster: every pixel of a closed surface has a triangle, also on edges and corners") {
+TEST_CASE("raster_coverage: every pixel of a closed surface has a triangle, also on edges and corners") {
     // Three tiles by two. Corners of the triangles are pixel centres (jitter 0), or corners of pixels.
     const std::uint32_t width = small_sizes() ? 18 : 48, height = small_sizes() ? 4 : 32;
     Random random(310);
@@ -100,7 +100,7 @@ TEST_CASE("raster: every pixel of a closed surface has a triangle, also on edges
         }
 }
 
-TEST_CASE("raster: triangles through the plane of the eye") {
+TEST_CASE("raster_coverage: triangles through the plane of the eye") {
     // A floor under the eye and far around it: below the horizon all pixels, above it none. Nearer than 17 roundoffs of
     // its triangles' extents, 0.06, a ray could not tell on which side of them it starts.
     const std::uint32_t width = 50, height = 40;
@@ -126,7 +126,7 @@ TEST_CASE("raster: triangles through the plane of the eye") {
     }
 }
 
-TEST_CASE("raster: no gaps where edges round") {
+TEST_CASE("raster_coverage: no gaps where edges round") {
     // Triangles of a fraction of a pixel, on a slope away from the origin, so that edges round.
     Random random(314);
     const std::uint32_t width = small_sizes() ? 20 : 150, height = small_sizes() ? 10 : 100;

@@ -121,7 +121,7 @@ void check_scene(const Scene& scene, std::size_t turn) {
 
 } // namespace
 
-TEST_CASE("real scenes: closest hits equal brute force, any hits agree") {
+TEST_CASE("real_scenes: closest hits equal brute force, any hits agree") {
     if (scenes_folder().empty() || small_sizes()) {
         MESSAGE("skipped: real scenes (BOXWOOD_SCENES is not set, or sizes are kept small)");
         return;
