@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR, --seed=N and --tuning=GROUP,ITEMS,SLICE,LANES.
+// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR, --seed=N and
+// --tuning=GROUP,ITEMS,SLICE,LANES.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -39,8 +40,8 @@ bool small_sizes() { return std::getenv("BOXWOOD_SMALL") != nullptr; }
 
 namespace {
 
-/// Empties the device's pool before each test case under a checker: Oclgrind goes through every byte of every buffer, used or not,
-/// after each kernel.
+/// Empties the device's pool before each test case under a checker: Oclgrind goes through every byte of every buffer,
+/// used or not, after each kernel.
 struct EmptyPool : doctest::IReporter {
     explicit EmptyPool(const doctest::ContextOptions&) {}
     void test_case_start(const doctest::TestCaseData&) override {

@@ -15,8 +15,8 @@ namespace boxwood {
 
 namespace {
 
-/// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
-/// work-items there are, and for the caches of a CPU.
+/// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for
+/// the work-items there are, and for the caches of a CPU.
 std::uint32_t chunk_size_for(const Device& device, std::uint64_t primitives) {
     // Every level has launches to wait for: fewer are better as long as there is a subtree for every other work-item.
     const std::uint64_t length = cut(device, std::max<std::uint64_t>(primitives, 1)).length;

@@ -125,7 +125,8 @@ Buffer<float> AnimatedTree::State::changed_positions(std::uint32_t mesh,
     return changed;
 }
 
-/// The tree over the same topology with the triangles of `scene` at `positions`, which are exchanged with those in `parts`.
+/// The tree over the same topology with the triangles of `scene` at `positions`, which are exchanged with those in
+/// `parts`.
 Tree AnimatedTree::State::fit(Buffer<float>& positions) {
     Buffer<Aabb> tree_bounds;
     Buffer<Obb> mesh_boxes;

@@ -44,7 +44,8 @@ double end_point_overlap(Device& device, const BinaryTrees& trees, BufferView<co
     const Stage stage(device, "quality");
     const float unit = unit_of_lengths(device, trees);
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(trees.topology.size(), overlap_samples));
-    // Where triangles lie on each other, each visits all the others' nodes: what few samples cost says how many to take.
+    // Where triangles lie on each other, each visits all the others' nodes: what few samples cost says how many to
+    // take.
     std::uint32_t samples = std::min<std::uint32_t>(most, overlap_samples / 256);
     Sampled result = sample(device, trees, triangles, unit, samples);
     while (samples < most && 4 * result.visits <= overlap_visits) {

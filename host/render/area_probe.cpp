@@ -66,7 +66,8 @@ struct Control {
     }
 };
 
-/// Rays of an area from what its own 16 x 16 rays hit back to where those start: shadow rays, where the area is a light's.
+/// Rays of an area from what its own 16 x 16 rays hit back to where those start: shadow rays, where the area is a
+/// light's.
 std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceArea& area) {
     const InfluenceRecord frame = influence_records(std::vector{area})[0];
     std::vector<Ray> rays;

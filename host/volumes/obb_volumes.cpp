@@ -12,8 +12,8 @@ namespace {
 
 /// Primitives that one work-item may take at a time; see cl/volumes/obb_ranges.cl.
 constexpr std::uint32_t longest_range = 4096;
-/// Primitives from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the nodes. A
-/// top level has few nodes, and large ones.
+/// Primitives from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the
+/// nodes. A top level has few nodes, and large ones.
 constexpr std::uint32_t refined_triangles = 256, refined_instances = 2;
 /// Floats that a vector load may read behind the last point.
 constexpr std::uint32_t padding = 64;
@@ -79,9 +79,9 @@ void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool ex
     });
 }
 
-/// Pass "0": the axes of nodes by the covariance of their points, "1": their boxes along these; of all nodes, or of those with up
-/// to `longest` primitives. The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to five digits (bunny,
-/// dragon); small nodes have little volume, and 2 sweeps do for them alone.
+/// Pass "0": the axes of nodes by the covariance of their points, "1": their boxes along these; of all nodes, or of
+/// those with up to `longest` primitives. The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to
+/// five digits (bunny, dragon); small nodes have little volume, and 2 sweeps do for them alone.
 void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32_t longest = 0) {
     Device& device = fit.device;
     const std::uint32_t chunk = longest ? longest : longest_range;

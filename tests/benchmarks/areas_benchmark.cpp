@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-areas: trees with an influence area beside the same without, in the configurations of the influence study:
-// whether closest hits agree with brute force, the time of rays that follow the area, and of the rule that takes every hit in the
-// local tree for the closest, which is wrong. In one process and in turns; with --report also written as JSON.
+// boxwood-benchmark-areas: trees with an influence area beside the same without, in the configurations of the influence
+// study: whether closest hits agree with brute force, the time of rays that follow the area, and of the rule that takes
+// every hit in the local tree for the closest, which is wrong. In one process and in turns; with --report also written
+// as JSON.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -31,8 +32,8 @@ struct Choice {
     std::string builder = "sah";
 };
 
-/// A quarter each: in any direction from within the region, from its faces, along the area's lines from its faces, and parallel to
-/// its edges from its faces, which never leave the face or leave it at an edge.
+/// A quarter each: in any direction from within the region, from its faces, along the area's lines from its faces, and
+/// parallel to its edges from its faces, which never leave the face or leave it at an edge.
 std::vector<Ray> hard_rays(const InfluenceRecord& area, std::uint32_t count) {
     const auto corner = corners(area);
     const auto mix = [](const glm::dvec3& a, const glm::dvec3& b, double t) { return a + t * (b - a); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-intersector: what the watertight ray-triangle test costs beside that of Moller and Trumbore, and what it is
-// worth: rays per second on the scenes given, and against exact arithmetic the hits that are missed, those that are none, and
-// the error of t.
+// boxwood-benchmark-intersector: what the watertight ray-triangle test costs beside that of Moller and Trumbore, and
+// what it is worth: rays per second on the scenes given, and against exact arithmetic the hits that are missed, those
+// that are none, and the error of t.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-lamps: shadow rays towards a directional and a rectangular light over each scene, by one tree (sah), with the
-// local trees of the areas of these lights that are worth it (pah) and of all of them, and by one tree that knows of them (blend).
-// In one process and in turns; with --report also written as JSON.
+// boxwood-benchmark-lamps: shadow rays towards a directional and a rectangular light over each scene, by one tree
+// (sah), with the local trees of the areas of these lights that are worth it (pah) and of all of them, and by one tree
+// that knows of them (blend). In one process and in turns; with --report also written as JSON.
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-raster: primary hits by the rasteriser against primary rays, on the scenes given: whether the two are the same, and
-// the time of each. Alternating runs, medians.
+// boxwood-benchmark-raster: primary hits by the rasteriser against primary rays, on the scenes given: whether the two
+// are the same, and the time of each. Alternating runs, medians.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

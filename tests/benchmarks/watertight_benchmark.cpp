@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of tree, all of
-// which must give the same hits; of slivers, grazing rays and random bits those of brute force. Runs for as many rays as asked, and
-// fails on one miss or one difference.
+// boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of
+// tree, all of which must give the same hits; of slivers, grazing rays and random bits those of brute force. Runs for
+// as many rays as asked, and fails on one miss or one difference.
 #include <algorithm>
 #include <cstdio>
 #include <vector>

@@ -59,9 +59,9 @@ BuildOptions options_of(const Match& match) {
     return {.levels = Levels::one, .layout = Layout::wide8, .builder = match.builder};
 }
 
-/// Builds by both, alternating, each from triangles that it already holds, by wall clock on both sides. `ready` is up to a tree that
-/// can be traversed; the build alone is without what the device takes to collapse it, but with all waits, which keep ours from
-/// looking faster than it is. The tree that is left in `peer` is that of the match.
+/// Builds by both, alternating, each from triangles that it already holds, by wall clock on both sides. `ready` is up
+/// to a tree that can be traversed; the build alone is without what the device takes to collapse it, but with all
+/// waits, which keep ours from looking faster than it is. The tree that is left in `peer` is that of the match.
 void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, const Match& match, int runs, Report& report) {
     std::vector<double> theirs, to_volumes, ready;
     BuildReport built;

@@ -122,7 +122,7 @@ TEST_CASE("radix_sort: refuses what does not fit") {
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), 0, 33), InputError);
 }
 
-TEST_CASE_TEMPLATE("radix sort: memory does not depend on the number of threads", Key, std::uint32_t, std::uint64_t) {
+TEST_CASE_TEMPLATE("radix_sort: memory does not depend on the number of threads", Key, std::uint32_t, std::uint64_t) {
     Device& device = test_device();
     // Slices as short as digits allow, and so many keys that their counts take three levels of tiles to scan.
     for (const std::size_t size : {5001u, 300001u, 6000001u}) {

@@ -86,7 +86,8 @@ TEST_CASE_TEMPLATE("scan: every type, operator and size", T, std::int32_t, std::
     }
 }
 
-// From several tiles up to three levels of them: within a step, from tile to tile, and from what is before a tile of tiles.
+// From several tiles up to three levels of them: within a step, from tile to tile, and from what is before a tile of
+// tiles.
 TEST_CASE_TEMPLATE("scan: sums of what is not negative never fall", T, float, cl_float4) {
     std::vector<std::size_t> sizes = boundary_sizes();
     if (!small_sizes()) sizes.push_back((std::size_t{1} << 24) / (sizeof(T) / sizeof(float)) + 4099);

@@ -107,8 +107,8 @@ TEST_CASE("camera: the jitters of a sequence cover the pixel") {
         for (const std::uint64_t seed : {std::uint64_t{0}, test_seed()}) {
             options.sampler = sampler;
             options.seed = seed;
-            // Any 2^k points that follow one another from a multiple of 2^k: one in each box of 2^-k of the pixel's area,
-            // whatever its shape (a (0, 2)-sequence in base 2). A digital shift moves boxes onto boxes.
+            // Any 2^k points that follow one another from a multiple of 2^k: one in each box of 2^-k of the pixel's
+            // area, whatever its shape (a (0, 2)-sequence in base 2). A digital shift moves boxes onto boxes.
             for (const std::uint32_t k : {4u, 8u})
                 for (const std::uint32_t first : {0u, 3u << k})
                     for (std::uint32_t wide = 0; wide <= k; ++wide) {

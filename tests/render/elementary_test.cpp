@@ -32,8 +32,8 @@ Values values_of(const std::vector<float>& numbers) {
     return {logarithms.values(), fractions.values()};
 }
 
-/// Positive floats with `steps` per power of two, from the smallest denormal to the largest, both sides of every power of two, and
-/// where polynomials change.
+/// Positive floats with `steps` per power of two, from the smallest denormal to the largest, both sides of every power
+/// of two, and where polynomials change.
 std::vector<float> positive_floats(std::uint32_t steps) {
     std::vector<float> numbers;
     const std::uint32_t stride = (1u << 23) / steps;

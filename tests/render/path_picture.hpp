@@ -97,9 +97,9 @@ struct Estimate {
     double mean = 0.0, error = 0.0;
     std::uint32_t repeats = 2;
 
-    /// How far from the mean the true one may be: as improbable as three standard errors that are known, though this one comes
-    /// from a few pictures (quantiles of Student's distribution by Wallace 1959, within 2 % from 5 pictures, wider of fewer); and
-    /// roundings, some 64 of each light.
+    /// How far from the mean the true one may be: as improbable as three standard errors that are known, though this
+    /// one comes from a few pictures (quantiles of Student's distribution by Wallace 1959, within 2 % from 5 pictures,
+    /// wider of fewer); and roundings, some 64 of each light.
     double margin() const {
         const double free = repeats - 1.0, shrunk = free - 2.0 / 3 + 0.1 / free;
         const double quantile = std::sqrt(free * std::expm1(9.0 * (free - 5.0 / 6) / (shrunk * shrunk)));

@@ -82,7 +82,8 @@ TEST_CASE("buffer: capacity errors carry both numbers, and nothing stays held") 
     CHECK(refuses([&] { make_scratch<Page>(device, pages, "big"); }, pages * sizeof(Page), largest));
     CHECK(device.held_bytes() == 0);
 
-    // Up to the device's memory by buffers that are never touched, of which a CPU device takes no page. (Oclgrind does.)
+    // Up to the device's memory by buffers that are never touched, of which a CPU device takes no page. (Oclgrind
+    // does.)
     if (small_sizes()) return;
     std::vector<Buffer<Page>> held;
     while (device.held_bytes() + largest <= memory && held.size() < 1000)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays and scenes at the ends of float: slivers, grazing rays, triangles of random bits, all scales, and rays from far away.
+// Rays and scenes at the ends of float: slivers, grazing rays, triangles of random bits, all scales, and rays from far
+// away.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -137,7 +138,8 @@ TEST_CASE("extremes: rays from far away hit what exact arithmetic says and cost 
     double near_volumes = 0.0;
     for (const float away : {4.0f, 1e3f, 1e5f, 1e7f, 1e12f, 1e18f}) {
         CAPTURE(away);
-        // Origins are multiples of a direction of few bits, so that they are exactly on one line with those 4 of it away.
+        // Origins are multiples of a direction of few bits, so that they are exactly on one line with those 4 of it
+        // away.
         const float step = std::exp2(std::round(std::log2(away)));
         Random random(84); // the same lines from everywhere
         std::vector<Ray> rays, near;
