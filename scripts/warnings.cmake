@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# boxwood_warnings(TARGET): strict warnings as errors, and the sanitizers when they are on.
+# boxwood_warnings(TARGET): strict warnings, errors where BOXWOOD_WARNINGS_AS_ERRORS is on, and the sanitizers when they are on.
 function(boxwood_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<BOOL:${BOXWOOD_WARNINGS_AS_ERRORS}>:-Werror>)
   # GCC 12 warns of overlapping copies inside its own std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)

@@ -21,6 +21,7 @@
 #define SPECULAR 0
 #define STRATEGY 1
 #define UNIFORM_HEMISPHERE 0
+#include "shared/sample.h"
 #include "render/elementary.h"
 #include "render/path.h"
 
@@ -122,8 +123,8 @@ typedef struct Bounce {
 typedef struct AmbientSettings {
     global const CameraRecord* camera;
     global const float* coefficients;
-    ulong seed;
-    uint sample, samples, first_pixel, bounce;
+    SampleSettings sample;
+    uint bounce;
 } AmbientSettings;
 
 /// The bounces of paths, `index` within the batch, whose rays along `direction` met `hits`; `throughput` is given.
@@ -137,14 +138,15 @@ INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, con
     if (ANY(reflects)) {
         Vertex vertex;
         const mask met = reflects;
-        reflects &=
-            find_vertices(scene, settings->camera, direction, hits, settings->samples, settings->bounce == 0, &vertex) &
-            NOT(vertex.point.unlit);
+        reflects &= find_vertices(scene, settings->camera, direction, hits, settings->sample.samples,
+                                  settings->bounce == 0, &vertex) &
+                    NOT(vertex.point.unlit);
         multiply3(&result->throughput, &vertex.point.base_color, &result->throughput);
         if (settings->bounce == 0) choose3(met, &vertex.point.emission, &result->seen);
         choose3(met & vertex.point.unlit, &result->throughput, &result->seen);
-        const Sampler sampler = {random_key(settings->seed, TO_WIDE(LOAD_LANES(index)) + settings->first_pixel),
-                                 settings->sample, settings->samples};
+        const Sampler sampler = {
+            random_key(settings->sample.seed, TO_WIDE(LOAD_LANES(index)) + settings->sample.first_pixel),
+            settings->sample.sample, settings->sample.samples};
         const uint dimension = AMBIENT_DIMENSIONS * settings->bounce;
 #if LIGHTS
         real choice, unused;
@@ -177,10 +179,10 @@ void ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global c
                     uint light_count, global const EnvironmentRecord* environment,
                     global const float* environment_texels, global const float* environment_rows,
                     global const float* environment_columns, global const float* coefficients,
-                    global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint first_pixel,
-                    uint bounce, global const Ray* rays, global const Hit* hits, uint count, uint length,
-                    global float* throughputs, global Ray* next_rays, global Ray* shadow_rays, global float* pending,
-                    global float* direct, global float* indirect, global float* ambient) {
+                    global const CameraRecord* camera, SampleSettings sample, uint bounce, global const Ray* rays,
+                    global const Hit* hits, uint count, uint length, global float* throughputs, global Ray* next_rays,
+                    global Ray* shadow_rays, global float* pending, global float* direct, global float* indirect,
+                    global float* ambient) {
     const SceneArrays scene = SCENE_ARRAYS;
 #if LIGHTS
     const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
@@ -197,7 +199,7 @@ void ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global c
 #endif
     };
 #endif
-    const AmbientSettings settings = {camera, coefficients, seed, sample, samples, first_pixel, bounce};
+    const AmbientSettings settings = {camera, coefficients, sample, bounce};
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; i += LANES) {
@@ -271,9 +273,8 @@ void ambient_gather(global const uint* blocked, global const Hit* next_hits, glo
 
 /// next_rays[i] finds the occlusion where rays[i] met a surface, as above; a null ray for a miss.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, uint sample, uint samples,
-                    uint first_pixel, global const Ray* rays, global const Hit* hits, uint count, uint length,
-                    global Ray* next_rays) {
+void occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, SampleSettings sample, global const Ray* rays,
+                    global const Hit* hits, uint count, uint length, global Ray* next_rays) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
@@ -289,8 +290,9 @@ void occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong s
         null_rays(&next);
         if (ANY(reflects)) {
             Vertex vertex;
-            reflects &= find_vertices(&scene, camera, &view.direction, &met, samples, true, &vertex);
-            const Sampler sampler = {random_key(seed, TO_WIDE(LOAD_LANES(index)) + first_pixel), sample, samples};
+            reflects &= find_vertices(&scene, camera, &view.direction, &met, sample.samples, true, &vertex);
+            const Sampler sampler = {random_key(sample.seed, TO_WIDE(LOAD_LANES(index)) + sample.first_pixel),
+                                     sample.sample, sample.samples};
             cosine_rays(&vertex, &sampler, 0, &next);
         }
         clear_rays(NOT(reflects), &next);

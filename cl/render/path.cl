@@ -31,8 +31,8 @@ typedef struct Gathered {
 
 /// The beams where they meet the surfaces; `width` is that of the path's cone there, `spread` what it grows by per
 /// distance.
-INLINE void find_beam(global const CameraRecord* camera, const PathSettings* settings, const Vector* direction, real t,
-                      mask first, real width, real spread, Beam* beam) {
+INLINE void find_beam(global const CameraRecord* camera, const SampleSettings* settings, const Vector* direction,
+                      real t, mask first, real width, real spread, Beam* beam) {
 #if TEXTURES
     cone_beam(direction, width, beam);
     beam->exact_light = NOT(first);
@@ -74,7 +74,7 @@ INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_bef
 
 /// Follows paths at the surfaces on which the lanes of `met` are. Returns which go on, with `paths` and `rays` as they
 /// then are.
-INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,
+INLINE mask leave_surfaces(const PathWorld* world, const SampleSettings* settings, global const CameraRecord* camera,
                            const Hits* hits, mask met, Paths* paths, Rays* rays, Gathered* gathered) {
     const Sampler sampler = {random_key(settings->seed, TO_WIDE(paths->pixel) + settings->first_pixel),
                              settings->sample, settings->samples};
@@ -119,7 +119,7 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
 }
 
 /// Follows paths at their hits. Returns which go on, with `paths` and `rays` as they then are.
-INLINE mask follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,
+INLINE mask follow(const PathWorld* world, const SampleSettings* settings, global const CameraRecord* camera,
                    const Hits* hits, Paths* paths, Rays* rays, Gathered* gathered) {
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, throughput = paths->throughput;
     gathered->light = gathered->shadow = dark;
@@ -237,10 +237,10 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void shade_paths(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes,
                  uint light_count, global const EnvironmentRecord* environment, global const float* environment_texels,
                  global const float* environment_rows, global const float* environment_columns,
-                 global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint depth, uint first_pixel,
-                 uint first, global const Ray* rays, global const Hit* hits, uint count, uint length, uint slices,
-                 global PathState* states, global Ray* next_rays, global Ray* shadow_rays,
-                 global ShadowLight* shadow_lights, global uint* kept, global float* direct, global float* indirect) {
+                 global const CameraRecord* camera, SampleSettings settings, uint first, global const Ray* rays,
+                 global const Hit* hits, uint count, uint length, uint slices, global PathState* states,
+                 global Ray* next_rays, global Ray* shadow_rays, global ShadowLight* shadow_lights, global uint* kept,
+                 global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     PathWorld world;
@@ -261,7 +261,6 @@ void shade_paths(SCENE_PARAMETERS, global const LightRecord* lights, global cons
     };
     world.environment = environment_arrays;
 #endif
-    const PathSettings settings = {seed, sample, samples, depth, first_pixel};
     const uint begin = slice * length, end = begin + min(length, count - begin);
     uint place = begin;
     for (uint i = begin; i < end; i += LANES) {
@@ -270,7 +269,7 @@ void shade_paths(SCENE_PARAMETERS, global const LightRecord* lights, global cons
         lane_indices(i, used, index);
         Paths paths;
         if (first) {
-            begin_paths(camera, samples, index, &paths);
+            begin_paths(camera, settings.samples, index, &paths);
             clear_light(i, used, direct, indirect);
         } else {
             load_paths(states, index, &paths);

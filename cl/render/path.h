@@ -13,6 +13,7 @@
 #include "render/sampler.h"
 #include "render/vertex.h"
 #include "shared/path.h"
+#include "shared/sample.h"
 
 #if !defined(STRATEGY) || !defined(LIGHTS) || !defined(EMISSION)
 #error "define STRATEGY (0 both, 1 lights, 2 surface), LIGHTS and EMISSION (0 or 1)"
@@ -32,12 +33,6 @@
 
 // Bounce from which on paths end by chance.
 #define ROULETTE_BOUNCE 3u
-
-/// What all paths of a launch share.
-typedef struct PathSettings {
-    ulong seed;
-    uint sample, samples, depth, first_pixel;
-} PathSettings;
 
 /// The world as a path sees it.
 typedef struct PathWorld {
@@ -201,7 +196,7 @@ INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, rea
 
 /// The next rays of paths, and what they do to their states; false where the path ends. `width`: of the beams at the
 /// vertices.
-INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, whole dimension,
+INLINE mask scatter_paths(const Vertex* vertex, const SampleSettings* settings, const Sampler* sampler, whole dimension,
                           real choice, real width, Paths* paths, Rays* rays) {
     Vector wi, value, direction;
     real pdf, u, v;

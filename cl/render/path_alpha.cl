@@ -10,6 +10,7 @@
 #include "render/random.h"
 #include "render/spot.h"
 #include "shared/ray.h"
+#include "shared/sample.h"
 
 #if !defined(GROUP_SIZE) || LANES != 1
 #error "define GROUP_SIZE and LANES (1)"
@@ -25,8 +26,9 @@ INLINE float passed_fraction(const SceneArrays* scene, Hit hit) {
 }
 
 /// All of the light or none: `fraction` of it on average.
-INLINE float russian_roulette(float fraction, ulong seed, uint pixel, uint sample, uint round, uint layer) {
-    const ulong key = random_bits(random_bits(random_key(seed, pixel), sample), round);
+INLINE float russian_roulette(float fraction, const SampleSettings* settings, uint pixel, uint round, uint layer) {
+    const ulong key =
+        random_bits(random_bits(random_key(settings->seed, settings->first_pixel + pixel), settings->sample), round);
     return (float)(random_bits(key, layer) >> 40) * 0x1p-24f < fraction ? 1.0f : 0.0f;
 }
 
@@ -36,9 +38,9 @@ INLINE float russian_roulette(float fraction, ulong seed, uint pixel, uint sampl
 /// pixel apart. A slice is `length` consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier:
 /// work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void pass_shadows(SCENE_PARAMETERS, ulong seed, uint sample, uint first_pixel, uint round, uint layer,
-                  global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
-                  global ShadowLight* lights, global uint* kept, global float* direct, global float* indirect) {
+void pass_shadows(SCENE_PARAMETERS, SampleSettings settings, uint round, uint layer, global const Hit* hits, uint count,
+                  uint length, uint slices, global Ray* rays, global ShadowLight* lights, global uint* kept,
+                  global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const SceneArrays scene = SCENE_ARRAYS;
@@ -54,8 +56,7 @@ void pass_shadows(SCENE_PARAMETERS, ulong seed, uint sample, uint first_pixel, u
         }
         float passed = passed_fraction(&scene, hit);
         if (layer >= BOXWOOD_SURE_LAYERS)
-            passed =
-                russian_roulette(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
+            passed = russian_roulette(passed, &settings, light.pixel & ~BOXWOOD_INDIRECT, round, layer);
         if (!(passed > 0.0f)) continue;
         vstore3(vload3(0, light.value) * passed, 0, light.value);
         Ray ray = rays[i];

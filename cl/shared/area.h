@@ -2,8 +2,8 @@
 // Influence areas with trees of their own, and the index that finds those a point lies in.
 #ifndef BOXWOOD_SHARED_AREA_H
 #define BOXWOOD_SHARED_AREA_H
-#include "shared/aabb.h"
-#include "shared/influence.h"
+#include "aabb.h"
+#include "influence.h"
 
 BOXWOOD_SHARED_BEGIN
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_INFLUENCE_H
 #define BOXWOOD_SHARED_INFLUENCE_H
-#include "shared/types.h"
+#include "types.h"
 
 BOXWOOD_SHARED_BEGIN
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_LIGHT_H
 #define BOXWOOD_SHARED_LIGHT_H
-#include "shared/types.h"
+#include "types.h"
 
 // LightRecord::kind
 #define BOXWOOD_POINT_LIGHT 0u

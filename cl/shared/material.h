@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_MATERIAL_H
 #define BOXWOOD_SHARED_MATERIAL_H
-#include "shared/types.h"
+#include "types.h"
 
 // Bits of MaterialRecord::flags.
 #define BOXWOOD_ALPHA_MASK 1u

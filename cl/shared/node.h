@@ -2,7 +2,7 @@
 // The traversal layouts. A child reference is an index into the same node array, or BOXWOOD_LEAF | leaf index.
 #ifndef BOXWOOD_SHARED_NODE_H
 #define BOXWOOD_SHARED_NODE_H
-#include "shared/aabb.h"
+#include "aabb.h"
 
 BOXWOOD_SHARED_BEGIN
 

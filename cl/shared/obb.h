@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_OBB_H
 #define BOXWOOD_SHARED_OBB_H
-#include "shared/types.h"
+#include "types.h"
 
 // Floats that a node's moments take while boxes are fitted, and extreme points kept of a refined node.
 #define BOXWOOD_MOMENT_FLOATS 12

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_RASTER_H
 #define BOXWOOD_SHARED_RASTER_H
-#include "shared/triangle.h"
+#include "triangle.h"
 
 // Pixels across a tile, and down.
 #define BOXWOOD_TILE 16

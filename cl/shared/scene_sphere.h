@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_SCENE_SPHERE_H
 #define BOXWOOD_SHARED_SCENE_SPHERE_H
-#include "shared/types.h"
+#include "types.h"
 
 // Rays that start farther than this many radii from the center, on any axis, have their origin moved before they are
 // traced.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #ifndef BOXWOOD_SHARED_TOPDOWN_H
 #define BOXWOOD_SHARED_TOPDOWN_H
-#include "shared/types.h"
+#include "types.h"
 
 BOXWOOD_SHARED_BEGIN
 

@@ -3,7 +3,7 @@
 // share.
 #ifndef BOXWOOD_SHARED_TRIANGLE_H
 #define BOXWOOD_SHARED_TRIANGLE_H
-#include "shared/types.h"
+#include "types.h"
 
 BOXWOOD_SHARED_BEGIN
 

@@ -9,9 +9,10 @@
 #define BOXWOOD_SHARED_SIZE(type, bytes)
 #else
 #include <cstdint>
-#define BOXWOOD_SHARED_BEGIN \
-    namespace boxwood {      \
-    using uint = std::uint32_t;
+#define BOXWOOD_SHARED_BEGIN    \
+    namespace boxwood {         \
+    using uint = std::uint32_t; \
+    using ulong = std::uint64_t;
 #define BOXWOOD_SHARED_END }
 #define BOXWOOD_SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " must not be padded");
 #endif

@@ -114,9 +114,9 @@ void trace_ambient(Device& device, const World& world, const AmbientLight& aroun
             const BufferView<const Hit> hits = bounce == 0 ? primary.hits : BufferView<const Hit>(paths.hits);
             launch_shading(device, {"render/ambient.cl", "ambient_bounce", defines}, "ambient bounce", slices.slices,
                            world.geometry, appearance, appearance.lights, around.nodes, around.punctual, map.record,
-                           map.texels, map.rows, map.columns, around.coefficients, primary.camera, options.seed, sample,
-                           options.samples, primary.first_pixel, bounce, rays, hits, count, slices.length,
-                           paths.throughputs, paths.rays, paths.shadow_rays, paths.pending, light.direct,
+                           map.texels, map.rows, map.columns, around.coefficients, primary.camera,
+                           sample_settings(options, sample, primary.first_pixel), bounce, rays, hits, count,
+                           slices.length, paths.throughputs, paths.rays, paths.shadow_rays, paths.pending, light.direct,
                            light.indirect, light.ambient);
         }
         if (options.depth == 0) return fill(device, light.ao, 1.0f);
@@ -145,8 +145,9 @@ void trace_occlusion(Device& device, const World& world, const LightOptions& opt
     {
         const Stage stage(device, "shade");
         launch_shading(device, {"render/ambient.cl", "occlusion_rays", defines}, "occlusion rays", slices.slices,
-                       world.geometry, world.appearance, primary.camera, options.seed, sample, options.samples,
-                       primary.first_pixel, primary.rays, primary.hits, count, slices.length, rays);
+                       world.geometry, world.appearance, primary.camera,
+                       sample_settings(options, sample, primary.first_pixel), primary.rays, primary.hits, count,
+                       slices.length, rays);
     }
     {
         const Stage stage(device, "trace");

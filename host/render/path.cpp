@@ -96,6 +96,8 @@ public:
     }
 
 private:
+    SampleSettings settings() const { return sample_settings(options_, sample_, primary_.first_pixel); }
+
     void shade(std::size_t count, bool first) {
         const Stage stage(device_, "shade");
         const Appearance& appearance = world_.appearance;
@@ -104,14 +106,14 @@ private:
         const BufferView<const Ray> rays = first ? primary_.rays : BufferView<const Ray>(paths_.rays);
         const BufferView<const Hit> hits = first ? primary_.hits : BufferView<const Hit>(hits_);
         fronts_.slices = cut(device_, count);
-        launch_shading(
-            device_, programs_.shade, "shade", fronts_.slices.slices, world_.geometry, appearance, appearance.lights,
-            appearance.light_nodes, static_cast<std::uint32_t>(appearance.lights.size()), environment.record,
-            environment.texels, compensated ? environment.rows_above_floor : environment.rows,
-            compensated ? environment.columns_above_floor : environment.columns, primary_.camera, options_.seed,
-            sample_, options_.samples, options_.depth, primary_.first_pixel, first ? 1u : 0u, rays, hits,
-            static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices, paths_.records,
-            paths_.rays, shadows_.rays, shadows_.records, fronts_.kept, light_.direct, light_.indirect);
+        launch_shading(device_, programs_.shade, "shade", fronts_.slices.slices, world_.geometry, appearance,
+                       appearance.lights, appearance.light_nodes, static_cast<std::uint32_t>(appearance.lights.size()),
+                       environment.record, environment.texels,
+                       compensated ? environment.rows_above_floor : environment.rows,
+                       compensated ? environment.columns_above_floor : environment.columns, primary_.camera, settings(),
+                       first ? 1u : 0u, rays, hits, static_cast<std::uint32_t>(count), fronts_.slices.length,
+                       fronts_.slices.slices, paths_.records, paths_.rays, shadows_.rays, shadows_.records,
+                       fronts_.kept, light_.direct, light_.indirect);
     }
 
     void add_shadows(std::size_t count, std::uint32_t round) {
@@ -140,10 +142,9 @@ private:
                 const Stage stage(device_, "accumulate");
                 fronts_.slices = cut(device_, count);
                 launch_shading(device_, programs_.alpha, "pass shadows", fronts_.slices.slices, world_.geometry,
-                               world_.appearance, options_.seed, sample_, primary_.first_pixel, round, layer,
-                               shadow_hits_, static_cast<std::uint32_t>(count), fronts_.slices.length,
-                               fronts_.slices.slices, shadows_.rays, shadows_.records, fronts_.kept, light_.direct,
-                               light_.indirect);
+                               world_.appearance, settings(), round, layer, shadow_hits_,
+                               static_cast<std::uint32_t>(count), fronts_.slices.length, fronts_.slices.slices,
+                               shadows_.rays, shadows_.records, fronts_.kept, light_.direct, light_.indirect);
             }
             count = close_gaps(shadows_, moved_shadows_, count);
         }

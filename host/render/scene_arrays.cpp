@@ -20,4 +20,8 @@ Defines scene_defines(const Device& device, const Geometry& geometry, const Shad
     return defines;
 }
 
+SampleSettings sample_settings(const LightOptions& options, std::uint32_t sample, std::uint32_t first_pixel) {
+    return {options.seed, sample, options.samples, options.depth, first_pixel};
+}
+
 } // namespace boxwood

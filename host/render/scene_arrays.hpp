@@ -8,6 +8,7 @@
 #include "boxwood/geometry.hpp"
 #include "boxwood/render_options.hpp"
 #include "runtime/launch.hpp"
+#include "shared/sample.h"
 
 namespace boxwood {
 
@@ -18,10 +19,13 @@ std::string flag(bool needed);
 Defines scene_defines(const Device& device, const Geometry& geometry, const ShadingRequirements& requirements,
                       TextureFilter filter);
 
+/// Sample number `sample` of a picture, of the pixels from `first_pixel` on.
+SampleSettings sample_settings(const LightOptions& options, std::uint32_t sample, std::uint32_t first_pixel);
+
 /// Launches a kernel whose first parameters are SCENE_PARAMETERS, the others `arguments`.
 template <class... Arguments>
 void launch_shading(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
-                    const Geometry& geometry, const Appearance& appearance, const Arguments&... arguments) {
+                    const Geometry& geometry, const Appearance& appearance, Arguments&&... arguments) {
     launch(device, kernel, label, work_items, geometry.positions, geometry.triangles, geometry.meshes,
            geometry.instances, appearance.attributes, appearance.triangle_materials, appearance.materials,
            appearance.textures, appearance.texels, arguments...);

@@ -33,14 +33,15 @@ std::string load(const std::string& file, const std::string& includer) {
     return found->second;
 }
 
-/// The file named by an include line of an embedded file, if it is one.
-std::optional<std::string> included_file(const std::string& line) {
+/// The file named by an include line of the embedded file `includer`, if it is one: a name without a folder is beside it.
+std::optional<std::string> included_file(const std::string& line, const std::string& includer) {
     const std::size_t start = line.find_first_not_of(" \t");
     if (start == std::string::npos || line.compare(start, 8, "#include") != 0) return std::nullopt;
     const std::size_t open = line.find('"', start);
     const std::size_t close = open == std::string::npos ? open : line.find('"', open + 1);
     if (close == std::string::npos) return std::nullopt;
-    return line.substr(open + 1, close - open - 1);
+    const std::string name = line.substr(open + 1, close - open - 1);
+    return name.find('/') == std::string::npos ? includer.substr(0, includer.rfind('/') + 1) + name : name;
 }
 
 /// Stands for the text that a launch brings along.
@@ -54,7 +55,7 @@ void append(const std::string& file, const std::string& includer, const std::str
     std::istringstream lines(own ? inserted : load(file, includer));
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
-        if (const auto include = included_file(line)) {
+        if (const auto include = included_file(line, file)) {
             append(*include, file, inserted, seen, out);
             out << "#line " << number + 1 << " \"" << file << "\"\n";
         } else {

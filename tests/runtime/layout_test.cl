@@ -11,6 +11,7 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/sample.h"
 #include "shared/scene_sphere.h"
 #include "shared/topdown.h"
 #include "shared/triangle.h"
@@ -45,6 +46,12 @@ void layout_test(global uint* out) {
                            OFFSET(MeshRange, vertex_count),
                            OFFSET(MeshRange, first_triangle),
                            OFFSET(MeshRange, triangle_count),
+                           sizeof(SampleSettings),
+                           OFFSET(SampleSettings, seed),
+                           OFFSET(SampleSettings, sample),
+                           OFFSET(SampleSettings, samples),
+                           OFFSET(SampleSettings, depth),
+                           OFFSET(SampleSettings, first_pixel),
                            sizeof(BinaryNode),
                            OFFSET(BinaryNode, bounds),
                            OFFSET(BinaryNode, child),

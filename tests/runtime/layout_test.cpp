@@ -13,6 +13,7 @@
 #include "shared/node.h"
 #include "shared/raster.h"
 #include "shared/ray.h"
+#include "shared/sample.h"
 #include "shared/scene_sphere.h"
 #include "shared/topdown.h"
 #include "shared/triangle.h"
@@ -36,6 +37,7 @@ TEST_CASE("layout: host and device agree on size and offsets of every shared str
         offsetof(InstanceRecord, mesh), offsetof(InstanceRecord, root), offsetof(InstanceRecord, reserved),
         sizeof(MeshRange), offsetof(MeshRange, first_vertex), offsetof(MeshRange, vertex_count),
         offsetof(MeshRange, first_triangle), offsetof(MeshRange, triangle_count),
+        sizeof(SampleSettings), offsetof(SampleSettings, seed), offsetof(SampleSettings, sample), offsetof(SampleSettings, samples), offsetof(SampleSettings, depth), offsetof(SampleSettings, first_pixel),
         sizeof(BinaryNode), offsetof(BinaryNode, bounds), offsetof(BinaryNode, child), offsetof(BinaryNode, reserved),
         sizeof(Wide8Node), offsetof(Wide8Node, min_x), offsetof(Wide8Node, max_x), offsetof(Wide8Node, min_y),
         offsetof(Wide8Node, max_y), offsetof(Wide8Node, min_z), offsetof(Wide8Node, max_z), offsetof(Wide8Node, child),
