@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# boxwood_warnings(TARGET): strict warnings, errors where BOXWOOD_WARNINGS_AS_ERRORS is on, and the sanitizers when they are on.
+# boxwood_warnings(TARGET): strict warnings, errors where BOXWOOD_WARNINGS_AS_ERRORS is
+# on, and the sanitizers when they are on.
 function(boxwood_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<BOOL:${BOXWOOD_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -33,7 +33,8 @@ std::string load(const std::string& file, const std::string& includer) {
     return found->second;
 }
 
-/// The file named by an include line of the embedded file `includer`, if it is one: a name without a folder is beside it.
+/// The file named by an include line of the embedded file `includer`, if it is one: a name without a folder is beside
+/// it.
 std::optional<std::string> included_file(const std::string& line, const std::string& includer) {
     const std::size_t start = line.find_first_not_of(" \t");
     if (start == std::string::npos || line.compare(start, 8, "#include") != 0) return std::nullopt;

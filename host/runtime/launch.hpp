@@ -33,12 +33,13 @@ struct Slices {
     std::uint32_t length = 0;
 };
 
-/// Cuts `count` elements by the device's tuning, each slice a multiple of `multiple` elements and none longer than all of them,
-/// so that the work-items that fill up the last group begin behind the end and not, beyond 2^32, at the front. {0, 0} for none.
+/// Cuts `count` elements by the device's tuning, each slice a multiple of `multiple` elements and none longer than all
+/// of them, so that the work-items that fill up the last group begin behind the end and not, beyond 2^32, at the front.
+/// {0, 0} for none.
 Slices cut(const Device& device, std::size_t count, std::size_t multiple = 1);
 
-/// The most slices that cut() can make, however many work-items there are. Scratch for so many does not depend on the number of
-/// compute units, which are threads on a CPU: the same work takes the same memory.
+/// The most slices that cut() can make, however many work-items there are. Scratch for so many does not depend on the
+/// number of compute units, which are threads on a CPU: the same work takes the same memory.
 std::size_t most_slices(const Device& device, std::size_t count, std::size_t multiple = 1);
 
 namespace detail {
@@ -94,10 +95,10 @@ void launch_values(Device& device, const KernelRef& kernel, const char* label, s
 
 } // namespace detail
 
-/// Enqueues `kernel` over `work_items` work-items, rounded up to whole groups (kernels test their index). Arguments
-/// are Buffer, BufferView, arithmetic values or shared structs of the kernel's exact parameter types, in its order; a const Buffer or
-/// a view of const elements where it only reads. No work-items: no launch. Throws ProgramError when it does not compile, DeviceError
-/// when the arguments do not fit or it cannot run.
+/// Enqueues `kernel` over `work_items` work-items, rounded up to whole groups (kernels test their index). Arguments are
+/// Buffer, BufferView, arithmetic values or shared structs of the kernel's exact parameter types, in its order; a const
+/// Buffer or a view of const elements where it only reads. No work-items: no launch. Throws ProgramError when it does
+/// not compile, DeviceError when the arguments do not fit or it cannot run.
 template <class... Arguments>
 void launch(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
             Arguments&&... arguments) {

@@ -43,8 +43,8 @@ void fill(Device& device, cl_mem target, const void* pattern, std::size_t patter
 
 } // namespace detail
 
-/// Non-owning view of the first size() elements of a device buffer, of the caller's own too. T may be const: what takes such a view
-/// only reads.
+/// Non-owning view of the first size() elements of a device buffer, of the caller's own too. T may be const: what takes
+/// such a view only reads.
 template <class T>
 class BufferView {
 public:
@@ -65,8 +65,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Owning array of size() elements in device memory. Move-only. Freed when destroyed, after the work enqueued on it. A const one
-/// is only read.
+/// Owning array of size() elements in device memory. Move-only. Freed when destroyed, after the work enqueued on it. A
+/// const one is only read.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_const_v<T>);
@@ -133,7 +133,8 @@ Buffer<T> make_scratch(Device& device, std::size_t count, const char* label) {
 template <class Range>
 concept HostArray = std::ranges::contiguous_range<Range> && std::ranges::sized_range<Range>;
 
-/// A new buffer holding a copy of `source`, whose elements are trivially copyable. The source may be changed when this returns.
+/// A new buffer holding a copy of `source`, whose elements are trivially copyable. The source may be changed when this
+/// returns.
 template <HostArray Range>
 Buffer<std::ranges::range_value_t<Range>> upload(Device& device, const Range& source, const char* label) {
     using T = std::ranges::range_value_t<Range>;

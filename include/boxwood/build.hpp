@@ -77,8 +77,9 @@ struct BuildReport {
 /// builder and exact extents (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
 
-/// The tree of one mesh: triangle t has the vertices positions[triangles[t][k]] and is hit as primitive t of instance 0. Throws
-/// InputError for an index out of range and a position that is not finite or not within largest_coordinate; else as build of a scene.
+/// The tree of one mesh: triangle t has the vertices positions[triangles[t][k]] and is hit as primitive t of instance
+/// 0. Throws InputError for an index out of range and a position that is not finite or not within largest_coordinate;
+/// else as build of a scene.
 Tree build(Device& device, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
            const BuildOptions& options = {}, BuildReport* report = nullptr);
 

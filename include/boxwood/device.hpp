@@ -56,9 +56,10 @@ public:
     /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError: listing the devices where none
     /// matches, or where the device lacks a language for the kernels.
     explicit Device(const std::string& selector = "");
-    /// Works in the caller's context and on the caller's queue, both retained, so that buffers of that context can be had as a
-    /// BufferView and no wait is needed between Boxwood's work and the caller's. The queue executes in order; passes are timed only
-    /// if it has profiling enabled. Throws DeviceError for a queue that is out of order or of another context, and as above.
+    /// Works in the caller's context and on the caller's queue, both retained, so that buffers of that context can be
+    /// had as a BufferView and no wait is needed between Boxwood's work and the caller's. The queue executes in order;
+    /// passes are timed only if it has profiling enabled. Throws DeviceError for a queue that is out of order or of
+    /// another context, and as above.
     Device(cl_context context, cl_command_queue queue);
     ~Device();
     Device(Device&&) noexcept;

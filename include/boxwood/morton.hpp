@@ -29,10 +29,10 @@ void morton_keys(Device& device, BufferView<const Aabb> boxes, BufferView<const 
 
 } // namespace detail
 
-/// The pairs to sort: order[i] = i, and keys[i] = tree of primitive i above the Morton code of its box's centre, in the cube that starts at the lower corner
-/// of the tree's bounds and has their largest extent as its side (dissertation 3.3.1, 3.6.1). The same bits for a scene
-/// scaled by a power of two. Key: uint32 (one tree, key_bits <= 32) or uint64. `offsets` as in Topology, but of
-/// unsorted primitives; `tree_bounds` has one finite box per tree. O(n).
+/// The pairs to sort: order[i] = i, and keys[i] = tree of primitive i above the Morton code of its box's centre, in the
+/// cube that starts at the lower corner of the tree's bounds and has their largest extent as its side (dissertation
+/// 3.3.1, 3.6.1). The same bits for a scene scaled by a power of two. Key: uint32 (one tree, key_bits <= 32) or uint64.
+/// `offsets` as in Topology, but of unsorted primitives; `tree_bounds` has one finite box per tree. O(n).
 template <DeviceArray Keys>
 void morton_keys(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets,
                  BufferView<const Aabb> tree_bounds, KeyFormat format, Keys&& keys, BufferView<std::uint32_t> order) {

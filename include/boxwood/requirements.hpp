@@ -9,8 +9,9 @@
 
 namespace boxwood {
 
-/// What a scene and a choice of options need: build() makes what they name and nothing else, and traversal's programs are
-/// specialised by the tree that results. What shading needs, ShadingRequirements, decides its programs and buffers alike.
+/// What a scene and a choice of options need: build() makes what they name and nothing else, and traversal's programs
+/// are specialised by the tree that results. What shading needs, ShadingRequirements, decides its programs and buffers
+/// alike.
 struct Requirements {
     bool two_levels = false;      ///< A top level over instances is built and traversed.
     bool instance_lookup = false; ///< One level over several instances: hits are mapped back to theirs.

@@ -13,8 +13,8 @@ namespace boxwood::test {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// Whether the ray's line meets the triangle, edges and corners included, and the parameter where it meets its plane; 0 where it is
-/// parallel to that.
+/// Whether the ray's line meets the triangle, edges and corners included, and the parameter where it meets its plane; 0
+/// where it is parallel to that.
 struct ExactIntersection {
     bool inside = false;
     __float128 t = 0;
