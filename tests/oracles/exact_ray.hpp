@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays against triangles in 113-bit arithmetic, where nothing of what floats say is rounded for coordinates within some 2^16 of each
-// other.
+// Rays against triangles in 113-bit arithmetic, where nothing of what floats say is rounded for coordinates within some
+// 2^16 of each other.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program that has an OpenCL context, a queue and triangles of its own: the tree is built and traced there, and hits stay in a
-// buffer that the program's own kernels can read.
+// A program that has an OpenCL context, a queue and triangles of its own: the tree is built and traced there, and hits
+// stay in a buffer that the program's own kernels can read.
 #include <iostream>
 #include <limits>
 #include <vector>
