@@ -374,3 +374,18 @@ TEST_CASE("build: a scene scaled by a power of two has the same tree, scaled") {
         }
     }
 }
+
+TEST_CASE("build: of positions and indices, the tree of a scene of that one mesh") {
+    const Mesh mesh = random_mesh(300, 1.0f, 0.2f, 11);
+    Device& device = test_device();
+    const TreeImage expected = build_image(scene_of({mesh}), {.builder = Builder::sah});
+    BuildReport report;
+    const Tree tree = build(device, mesh.positions, mesh.triangles, {.builder = Builder::sah}, &report);
+    CHECK(same_trees(download(device, tree), expected));
+    CHECK(report.nodes == tree.node_count());
+    CHECK(build(device, mesh.positions, std::span<const glm::uvec3>()).empty());
+    const std::vector<glm::uvec3> beyond{{0, 1, 900}};
+    CHECK_THROWS_AS(build(device, mesh.positions, beyond), InputError);
+    const std::vector<glm::vec3> broken{{0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<float>::quiet_NaN(), 0}};
+    CHECK_THROWS_AS(build(device, broken, std::vector<glm::uvec3>{{0, 1, 2}}), InputError);
+}

@@ -52,5 +52,3 @@ TEST_CASE("argument_check: arguments of other types than the kernel's, and const
     CHECK(has(complaint(rays, out, 3u, double{4}), "takes ulong, got double"));
     CHECK(has(complaint(out, rays, 3u, std::uint64_t{4}), "argument 0"));
 }
-
-TEST_SUITE_END();

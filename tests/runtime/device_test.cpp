@@ -8,6 +8,8 @@
 
 #include "boxwood/device.hpp"
 #include "boxwood/error.hpp"
+#include "boxwood/gather.hpp"
+#include "runtime/device_state.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
 #include "tuning.hpp"
@@ -120,4 +122,45 @@ TEST_CASE("device: slices cover every element once, none is empty") {
         CHECK(cut(device, 0).slices == 0);
         CHECK(most_slices(device, 0) == 0);
     }
+}
+
+TEST_CASE("device: works in the caller's context, on the caller's queue and buffers") {
+    const cl_context context = test_device().state().context();
+    const cl_device_id id = test_device().state().device();
+    cl_int status = CL_SUCCESS;
+    const cl_command_queue queue = clCreateCommandQueue(context, id, 0, &status); // without profiling
+    REQUIRE(status == CL_SUCCESS);
+    const cl_mem memory = clCreateBuffer(context, CL_MEM_READ_WRITE, 4 * sizeof(std::uint32_t), nullptr, &status);
+    REQUIRE(status == CL_SUCCESS);
+    {
+        Device device(context, queue);
+        CHECK(device.info().name == test_device().info().name);
+        CHECK(device.info().index == test_device().info().index);
+        const BufferView<std::uint32_t> own(memory, 4);
+        gather(device, upload(device, std::vector<std::uint32_t>{10, 20, 30, 40}, "values"),
+               upload(device, std::vector<std::uint32_t>{3, 0, 2, 1}, "indices"), own);
+        CHECK(download(device, own) == std::vector<std::uint32_t>{40, 10, 30, 20});
+        const Profile profile = device.take_profile();
+        REQUIRE(profile.passes.size() == 1);
+        CHECK(profile.passes[0].launches == 1);
+        CHECK(profile.passes[0].ms == 0.0); // the queue does not time
+    }
+    CHECK(clReleaseMemObject(memory) == CL_SUCCESS);
+    CHECK(clReleaseCommandQueue(queue) == CL_SUCCESS); // the device had references of its own
+}
+
+TEST_CASE("device: a queue that is out of order, and one of another context, are refused") {
+    const cl_context context = test_device().state().context();
+    const cl_device_id id = test_device().state().device();
+    cl_int status = CL_SUCCESS;
+    const cl_command_queue loose = clCreateCommandQueue(context, id, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &status);
+    if (status == CL_SUCCESS) { // not every device has such queues
+        CHECK_THROWS_WITH_AS(Device(context, loose), doctest::Contains("out of order"), DeviceError);
+        clReleaseCommandQueue(loose);
+    }
+    const cl_context other = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &status);
+    REQUIRE(status == CL_SUCCESS);
+    CHECK_THROWS_WITH_AS(Device(other, test_device().state().queue()), doctest::Contains("another context"),
+                         DeviceError);
+    clReleaseContext(other);
 }
