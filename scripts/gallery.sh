@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of the READMEs in scenes/: of procedural scenes; when a folder with them is given, of real ones whose licences
-# allow it with credit; and when a folder with the published experiments on known rays (areas.json, published_costs.csv) is given too,
-# the plot of their study. Takes some minutes on two cores; SPP=8 is quick and noisy, ONLY="forest boxes" makes only these.
-# The plots need matplotlib (scripts/setup.sh --checks installs it).
+# Makes the pictures of the READMEs in scenes/: of procedural scenes; when a folder with them is given, of real ones
+# whose licences allow it with credit; and when a folder with the published experiments on known rays (areas.json,
+# published_costs.csv) is given too, the plot of their study. Takes some minutes on two cores; SPP=8 is quick and
+# noisy, ONLY="forest boxes" makes only these. The plots need matplotlib (scripts/setup.sh --checks installs it).
 #
 # usage: scripts/gallery.sh [FOLDER_OF_SCENES [FOLDER_OF_AREAS]]
 set -euo pipefail
@@ -32,7 +32,8 @@ picture() {
 
 # boxes KIND: the boxes of that kind over the same boards, as lines
 boxes() {
-    "$boxwood" info "$work/boards.glb" --boxes "$work/$1.glb" --depth 7-7 --bounds "$1" --layout binary --builder sah --quiet
+    "$boxwood" info "$work/boards.glb" --boxes "$work/$1.glb" --depth 7-7 --bounds "$1" --layout binary --builder sah \
+        --quiet
 }
 
 for kind in cornell materials menger planks hair; do
@@ -41,15 +42,20 @@ done
 "$boxwood" scene forest --instances 10001 --triangles 1154 -o "$work/forest.glb" --quiet
 "$boxwood" scene planks --triangles 2400 -o "$work/boards.glb" --quiet
 
-picture cornell "$work/cornell.glb" --resolution 480x300 --spp 384 --depth 8 --eye 0,0,3.4 --target 0,0,0 --exposure 1
+picture cornell "$work/cornell.glb" --resolution 480x300 --spp 384 --depth 8 --eye 0,0,3.4 --target 0,0,0 \
+    --exposure 1
 forest=(--eye '20,4.2,45' --target '0,0.1,10' --fov 20)
 sun=(--environment sky --environment-rotation 25)
 picture forest "$work/forest.glb" --resolution 640x360 --spp 128 "${forest[@]}" "${sun[@]}" --exposure 0.8
-picture forest-ambient "$work/forest.glb" --resolution 480x270 --spp 48 "${forest[@]}" "${sun[@]}" --integrator ambient --exposure 0
+picture forest-ambient "$work/forest.glb" --resolution 480x270 --spp 48 "${forest[@]}" "${sun[@]}" \
+    --integrator ambient --exposure 0
 picture forest-cost "$work/forest.glb" --resolution 480x270 --spp 4 "${forest[@]}" --integrator cost
-picture spheres "$work/materials.glb" --resolution 400x250 --spp 192 --eye -1.8,2,5.2 --target 0.1,-0.6,-0.3 --fov 38 --environment sky --exposure 0
-picture sponge "$work/menger.glb" --resolution 400x250 --spp 192 --depth 8 --eye 0.02,0.12,0.98 --target -0.1,-0.05,0 --fov 75 --exposure 1
-picture planks "$work/planks.glb" --resolution 400x250 --spp 96 --eye 1.1,0.9,1.8 --target 0,-0.05,0 --fov 40 --exposure 0
+picture spheres "$work/materials.glb" --resolution 400x250 --spp 192 --eye -1.8,2,5.2 --target 0.1,-0.6,-0.3 --fov 38 \
+    --environment sky --exposure 0
+picture sponge "$work/menger.glb" --resolution 400x250 --spp 192 --depth 8 --eye 0.02,0.12,0.98 \
+    --target -0.1,-0.05,0 --fov 75 --exposure 1
+picture planks "$work/planks.glb" --resolution 400x250 --spp 96 --eye 1.1,0.9,1.8 --target 0,-0.05,0 --fov 40 \
+    --exposure 0
 
 if wanted boxes; then
     boxes aabb
@@ -64,8 +70,10 @@ if wanted quality; then
 fi
 [ -n "$folder" ] || exit 0
 
-picture teapot "$folder/teapot_15704.glb" --resolution 480x300 --spp 96 --eye 60,130,190 --target 5,34,0 --fov 32 --exposure -0.5
-picture box "$folder/cornellbox_original.glb" --resolution 480x300 --spp 512 --eye 0,1,3.6 --target 0,1,0 --fov 34 --exposure 4
+picture teapot "$folder/teapot_15704.glb" --resolution 480x300 --spp 96 --eye 60,130,190 --target 5,34,0 --fov 32 \
+    --exposure -0.5
+picture box "$folder/cornellbox_original.glb" --resolution 480x300 --spp 512 --eye 0,1,3.6 --target 0,1,0 --fov 34 \
+    --exposure 4
 pines=(--eye '1650,160,3700' --target '1650,40,2800' --fov 35)
 picture pines "$folder/synth_forest_pine_5000.glb" --resolution 480x300 --spp 96 "${pines[@]}" --exposure 0
 picture pines-cost "$folder/synth_forest_pine_5000.glb" --resolution 480x300 --spp 4 "${pines[@]}" --integrator cost

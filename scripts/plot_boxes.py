@@ -4,8 +4,8 @@
 
     scripts/plot_boxes.py aabb.glb obb-moments.glb -o boxes.png
 
-The name of each file is the title of its part. Lines fade with their distance. Needs matplotlib (Debian: python3-matplotlib;
-scripts/setup.sh --checks installs it).
+The name of each file is the title of its part. Lines fade with their distance. Needs matplotlib (Debian:
+python3-matplotlib; scripts/setup.sh --checks installs it).
 """
 import argparse
 import json
@@ -44,7 +44,7 @@ def matrix_of(node):
 
 
 def read_lines(file):
-    """Both ends of every line, as seen by the first camera: (lines, 2, 3). Ends the program where the file is none of boxes."""
+    """Both ends of every line, as seen by the first camera: (lines, 2, 3). Ends the program where it is none."""
     try:
         document, buffer = read_glb(file)
         camera = next(node for node in document["nodes"] if "camera" in node)
@@ -78,7 +78,8 @@ def plot(axes, lines, title):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("boxes", nargs="+", help="files of boxwood info --boxes (.glb)")
-    parser.add_argument("-o", "--output", required=True, help="picture to write; its ending says the kind (.png, .svg, .pdf)")
+    parser.add_argument("-o", "--output", required=True,
+                        help="picture to write; its ending says the kind (.png, .svg, .pdf)")
     arguments = parser.parse_args()
     scenes = [(pathlib.Path(file).stem, read_lines(file)) for file in arguments.boxes]
 
