@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "volumes/binary_trees.hpp"
 #include "shared/triangle.h"
+#include "volumes/binary_trees.hpp"
 
 namespace boxwood {
 

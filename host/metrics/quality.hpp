@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "boxwood/quality.hpp"
-#include "volumes/binary_trees.hpp"
 #include "shared/instance.h"
+#include "volumes/binary_trees.hpp"
 
 namespace boxwood {
 
