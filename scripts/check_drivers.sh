@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Intel's OpenCL runtime for CPUs beside PoCL: kernel tests on small sizes pass there too, none of them left out, and trees and
-# pictures are the same bytes from both. setup.sh --checks installs that runtime in a folder of its own.
+# Intel's OpenCL runtime for CPUs beside PoCL: kernel tests on small sizes pass there too, none of them left out, and
+# trees and pictures are the same bytes from both. setup.sh --checks installs that runtime in a folder of its own.
 # usage: scripts/check_drivers.sh [BUILD_FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -17,7 +17,8 @@ mkdir -p "$work"
 test_suites() {
     local log=$work/$1.txt
     shift
-    if ! OCL_ICD_VENDORS=$second BOXWOOD_SMALL=1 "$build/boxwood-tests" --device=Intel --no-intro "$@" >"$log" 2>&1; then
+    if ! OCL_ICD_VENDORS=$second BOXWOOD_SMALL=1 "$build/boxwood-tests" --device=Intel --no-intro "$@" \
+        >"$log" 2>&1; then
         tail -c 20000 "$log"
         return 1
     fi

@@ -24,7 +24,8 @@ done
 failed=0
 for i in "${!jobs[@]}"; do
     if wait "${jobs[$i]}"; then
-        echo "check_fuzz: ${names[$i]}: $(sed -n 's/stat::number_of_executed_units: *//p' "build/fuzz/${names[$i]}.log") files, no failure"
+        files=$(sed -n 's/stat::number_of_executed_units: *//p' "build/fuzz/${names[$i]}.log")
+        echo "check_fuzz: ${names[$i]}: $files files, no failure"
     else
         tail -n 60 "build/fuzz/${names[$i]}.log"
         failed=1

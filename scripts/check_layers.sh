@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Fails when a file of cl/, host/ or include/ includes one of a higher layer. The layers are the folders of host/, lowest first; those
-# below runtime know no OpenCL. A public header belongs to the lowest layer that implements it (host/LAYER/STEM.cpp); one without a
-# source of its own to the highest layer among what it includes.
+# Fails when a file of cl/, host/ or include/ includes one of a higher layer. The layers are the folders of host/,
+# lowest first; those below runtime know no OpenCL. A public header belongs to the lowest layer that implements it
+# (host/LAYER/STEM.cpp); one without a source of its own to the highest layer among what it includes.
 # usage: scripts/check_layers.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -62,14 +62,19 @@ find cl host include -name '*.cl' -o -name '*.h' -o -name '*.cpp' -o -name '*.hp
             if (split(files[f], parts, "/") != 3 || parts[1] != "host" || parts[3] !~ /\.cpp$/) continue
             stem = substr(parts[3], 1, length(parts[3]) - 4)
             if (parts[2] == "cli") continue
-            if (!(parts[2] in rank)) { print "check_layers: no layer is called " parts[2] ": " files[f]; bad++; continue }
+            if (!(parts[2] in rank)) {
+                print "check_layers: no layer is called " parts[2] ": " files[f]
+                bad++
+                continue
+            }
             if (!implemented[stem] || rank[parts[2]] < implemented[stem]) implemented[stem] = rank[parts[2]]
         }
         for (f = 1; f <= file_count; f++) {
             own = own_rank(files[f])
             for (i = 1; own && i <= include_count[files[f]]; i++) {
-                if (!upward(files[f], own, includes[files[f], i])) continue
-                printf "check_layers: %s:%d includes %s, of a layer above\n", files[f], line[files[f], i], includes[files[f], i]
+                included = includes[files[f], i]
+                if (!upward(files[f], own, included)) continue
+                printf "check_layers: %s:%d includes %s, of a layer above\n", files[f], line[files[f], i], included
                 bad++
             }
         }

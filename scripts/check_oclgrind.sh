@@ -13,8 +13,8 @@ export logs=$build/oclgrind
 rm -rf "$logs"
 mkdir -p "$logs"
 
-# A process for each part of a suite, one on each core: after every kernel Oclgrind goes through all buffers of its process, on one
-# thread. Not by --log: every context that a test opens would start that file anew.
+# A process for each part of a suite, one on each core: after every kernel Oclgrind goes through all buffers of its
+# process, on one thread. Not by --log: every context that a test opens would start that file anew.
 check_part() {
     local log="$logs/$1-$2"
     if ! BOXWOOD_DEVICE=Oclgrind BOXWOOD_SMALL=1 oclgrind --data-races --max-errors 1000000 \

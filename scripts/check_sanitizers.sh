@@ -5,14 +5,15 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-suites=${1:-cli,build,render,io,traverse,influence,volumes,layout,metrics,tree_image,primitives,bounds,runtime,scene,common}
+all=cli,build,render,io,traverse,influence,volumes,layout,metrics,tree_image,primitives,bounds,runtime,scene,common
+suites=${1:-$all}
 
 cmake --preset asan
 cmake --build --preset asan --target boxwood-tests
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan.supp:print_suppressions=0"
 export UBSAN_OPTIONS=print_stacktrace=1 BOXWOOD_SMALL=1
-# A process for each part of a suite, one on each core, longest first. Processes of the tool end while PoCL's threads do, where
-# LeakSanitizer 14 itself may fail: leaks are looked for in the other suites.
+# A process for each part of a suite, one on each core, longest first. Processes of the tool end while PoCL's threads
+# do, where LeakSanitizer 14 itself may fail: leaks are looked for in the other suites.
 check_part() {
     local log="build/asan/$1-$2.txt"
     [[ $1 != cli ]] || export ASAN_OPTIONS=detect_leaks=0

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Prints the folder to set OCL_ICD_VENDORS to for Intel's OpenCL runtime for CPUs, the second driver of the checks. With --install
-# fetches it first when it is missing, from Python's package index, in the versions of intel_opencl.txt, into a folder that nothing
-# else looks at.
+# Prints the folder to set OCL_ICD_VENDORS to for Intel's OpenCL runtime for CPUs, the second driver of the checks. With
+# --install fetches it first when it is missing, from Python's package index, in the versions of intel_opencl.txt, into
+# a folder that nothing else looks at.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -12,8 +12,9 @@ if [[ ! -d $folder && ${1:-} == --install ]]; then
     mkdir -p "${folder%/*}"
     scratch=$(mktemp -d "$folder.XXXXXX")
     trap 'rm -rf "$scratch"' EXIT
-    if ! python3 -m pip download --quiet --no-deps --only-binary :all: --require-hashes -r intel_opencl.txt -d "$scratch" >&2; then
-        echo "setup: Intel's OpenCL runtime, the second driver of the checks, cannot be had from Python's package index." >&2
+    if ! python3 -m pip download --quiet --no-deps --only-binary :all: --require-hashes -r intel_opencl.txt \
+        -d "$scratch" >&2; then
+        echo "setup: Intel's OpenCL runtime, the second driver of the checks, is not in Python's package index." >&2
         exit 1
     fi
     mkdir "$scratch/vendors"

@@ -4,9 +4,9 @@
 
     scripts/plot_influence.py study.json -o influence.png
 
-Left: over all boxes that the rays meet; hollow marks are the published ratios. Right: in search of the closest hit. One row of marks
-for each kind of area and orientation: geometric means. Needs matplotlib (Debian: python3-matplotlib; scripts/setup.sh --checks
-installs it).
+Left: over all boxes that the rays meet; hollow marks are the published ratios. Right: in search of the closest hit.
+One row of marks for each kind of area and orientation: geometric means. Needs matplotlib (Debian: python3-matplotlib;
+scripts/setup.sh --checks installs it).
 """
 import argparse
 import json
@@ -48,8 +48,8 @@ def plot(axes, groups, builders, key, title):
                 axes.scatter(group[key][builder], row, color=colour, marker=marker, s=56, zorder=3, edgecolors="white",
                              linewidths=0.8, label=builder)
             if key == "geomean" and builder in group["published_geomean"]:
-                axes.scatter(group["published_geomean"][builder], row, facecolors="none", edgecolors=colour, marker=marker,
-                             s=56, zorder=2)
+                axes.scatter(group["published_geomean"][builder], row, facecolors="none", edgecolors=colour,
+                             marker=marker, s=56, zorder=2)
     axes.axvline(1.0, color="#bbbbbb", linewidth=1.5, zorder=1)
     axes.set_yticks(range(len(groups)), groups.keys())
     axes.set_xscale("log")
@@ -65,7 +65,8 @@ def plot(axes, groups, builders, key, title):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("report", help="report of boxwood study influence (JSON)")
-    parser.add_argument("-o", "--output", required=True, help="picture to write; its ending says the kind (.png, .svg, .pdf)")
+    parser.add_argument("-o", "--output", required=True,
+                        help="picture to write; its ending says the kind (.png, .svg, .pdf)")
     arguments = parser.parse_args()
     groups, builders = read_groups(arguments.report)
 

@@ -4,9 +4,9 @@
 
     scripts/plot_quality.py bunny.json dragon.json -o quality.png
 
-Left: the sum of the volumes of all nodes, relative to AABBs. Right: volumes that a bounce ray tests. Both against the device
-time of the volume passes (AABBs, and the fit of oriented boxes after them). A line joins the kinds that no other kind beats in both
-time and worth. Needs matplotlib (Debian: python3-matplotlib; scripts/setup.sh --checks installs it).
+Left: the sum of the volumes of all nodes, relative to AABBs. Right: volumes that a bounce ray tests. Both against the
+device time of the volume passes (AABBs, and the fit of oriented boxes after them). A line joins the kinds that no other
+kind beats in both time and worth. Needs matplotlib (Debian: python3-matplotlib; scripts/setup.sh --checks installs it).
 """
 import argparse
 import json
@@ -80,7 +80,8 @@ def plot(axes, kinds, value, label):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("reports", nargs="+", help="reports of boxwood quality (JSON)")
-    parser.add_argument("-o", "--output", required=True, help="picture to write; its ending says the kind (.png, .svg, .pdf)")
+    parser.add_argument("-o", "--output", required=True,
+                        help="picture to write; its ending says the kind (.png, .svg, .pdf)")
     arguments = parser.parse_args()
     scenes = [read_report(file) for file in arguments.reports]
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tables 4 and 5 of the dissertation again: runs `boxwood quality` on the scenes of a folder and prints what it finds beside the
-published figures (Sabino 2020, tables 4 and 5).
+"""Tables 4 and 5 of the dissertation again: runs `boxwood quality` on the scenes of a folder and prints what it finds
+beside the published figures (Sabino 2020, tables 4 and 5).
 
     scripts/reproduce_tables.py ../scenes --reports output
 
-Scenes that the tool refuses are named and left out. Reports stay in the folder of --reports (for scripts/plot_quality.py);
-with --reuse those already there are read and not made again.
+Scenes that the tool refuses are named and left out. Reports stay in the folder of --reports (for
+scripts/plot_quality.py); with --reuse those already there are read and not made again.
 """
 import argparse
 import json
@@ -17,8 +17,9 @@ import sys
 # The dissertation's kinds, in its order.
 PUBLISHED_KINDS = ["obb-points", "obb-boxes", "obb-quaternion"]
 
-# Table 4, single level and two levels: sum of volumes relative to AABBs, and the share of nodes whose OBB is smaller, in %.
-# By the start of a file's name. Two levels give no share for all nodes (and none at all for the top of obb-points).
+# Table 4, single level and two levels: sum of volumes relative to AABBs, and the share of nodes whose OBB is smaller,
+# in %. By the start of a file's name. Two levels give no share for all nodes (and none at all for the top of
+# obb-points).
 TABLE_4 = {
     ("bunny", "one"): {"obb-points": (0.91081, 97.2), "obb-boxes": (0.99065, 76.1), "obb-quaternion": (0.99389, 71.7)},
     ("sponza", "one"): {"obb-points": (0.98022, 78.0), "obb-boxes": (0.98655, 54.1), "obb-quaternion": (0.99614, 52.9)},
@@ -26,8 +27,8 @@ TABLE_4 = {
 }
 TABLE_4_TWO_TO_ONE = {"sponza": 2.50726 / 5.33077}
 
-# Table 5, ms: codes, sort, nodes, then volumes by kind; processor (CPU) and graphics processor (GPU). None: over a minute, or
-# not given.
+# Table 5, ms: codes, sort, nodes, then volumes by kind; processor (CPU) and graphics processor (GPU). None: over a
+# minute, or not given.
 TABLE_5 = {
     "dragon": {"CPU": (14.40, 100.80, 28.42, 626.26, 316.26, 520.10), "GPU": (13.14, None, 2.08, None, 50.90, 50.04)},
     "sponza": {"CPU": (4.27, 23.62, 8.52, 723.99, 756.01, 490.58), "GPU": (3.81, None, 0.64, None, 14.14, 13.40)},
@@ -41,7 +42,8 @@ def print_table(title, rows):
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     print("\n" + title)
     for row in rows:
-        print("  ".join(cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))).rstrip())
+        cells = [cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(row, widths))]
+        print("  ".join(cells).rstrip())
 
 
 def number(value, digits):
@@ -58,14 +60,17 @@ def make_report(arguments, scene):
     file = arguments.reports / (scene.stem + ".json")
     if not (arguments.reuse and file.exists()):
         print(f"measuring {scene.name}", file=sys.stderr)
-        command = [arguments.tool, "quality", scene, "--quiet", "--resolution", "512x512", "--bounds", arguments.bounds, "--report", file]
+        command = [arguments.tool, "quality", scene, "--quiet", "--resolution", "512x512", "--bounds", arguments.bounds,
+                   "--report", file]
         run = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE, text=True, check=False)
         if run.returncode != 0:
             print(f"left out: {scene.name}: {run.stderr.strip()}")
             return None
     try:
         report = json.loads(file.read_text(encoding="utf-8"))
-        report["requirements"], [(kind["sum_volume"], kind["fit_ratio"], kind["passes_ms"]) for kind in report["kinds"].values()]
+        report["requirements"]
+        for kind in report["kinds"].values():
+            kind["sum_volume"], kind["fit_ratio"], kind["passes_ms"]
         return report
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         sys.exit(f"reproduce_tables: {file}: not a report of boxwood quality ({error!r})")
@@ -83,7 +88,8 @@ def table_4(reports):
     rows = [["scene, levels, kind", "volume / aabb", "published", "OBB smaller, %", "published"]]
     for scene, report in reports.items():
         for level, kinds in levels_of(report).items():
-            known = next((known for (start, at), known in TABLE_4.items() if scene.startswith(start) and at == level), {})
+            known = next((known for (start, at), known in TABLE_4.items()
+                          if scene.startswith(start) and at == level), {})
             for key, sums in kinds.items():
                 if key == "aabb":
                     continue
@@ -113,7 +119,8 @@ def table_5(reports):
         if report["scene"]["triangles"] < TABLE_5_LEAST:
             continue
         passes = {key: kind["passes_ms"] for key, kind in report["kinds"].items()}
-        rows.append([scene] + [number(passes["aabb"][name], 2) for name in ("morton", "sort", "hierarchy", "aabb_volumes")] +
+        steps = ("morton", "sort", "hierarchy", "aabb_volumes")
+        rows.append([scene] + [number(passes["aabb"][step], 2) for step in steps] +
                     [number(passes[kind]["volumes"], 2) if kind in passes else "-" for kind in order])
         rows.append(["  times the AABBs", "", "", "", "1"] +
                     [number(report["kinds"][kind]["fit_ratio"], 1) if kind in passes else "-" for kind in order])
@@ -126,12 +133,14 @@ def table_5(reports):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", type=pathlib.Path, help="folder of .glb scenes")
-    parser.add_argument("--reports", type=pathlib.Path, default=pathlib.Path("output"), help="folder for reports (default: output)")
+    parser.add_argument("--reports", type=pathlib.Path, default=pathlib.Path("output"),
+                        help="folder for reports (default: output)")
     parser.add_argument("--reuse", action="store_true", help="read the reports that are there already")
     parser.add_argument("--only", default="", help="scenes whose names hold this")
     parser.add_argument("--bounds", default="all", help="kinds, as boxwood quality takes them (default: all)")
     root = pathlib.Path(__file__).resolve().parent.parent
-    parser.add_argument("--tool", type=pathlib.Path, default=root / "build/release/boxwood", help="the tool (default: of the release build)")
+    parser.add_argument("--tool", type=pathlib.Path, default=root / "build/release/boxwood",
+                        help="the tool (default: of the release build)")
     arguments = parser.parse_args()
     scenes = sorted(file for file in arguments.scenes.glob("*.glb") if arguments.only in file.name)
     if not scenes:

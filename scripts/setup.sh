@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Installs from Debian what building and testing Boxwood needs and this machine lacks. With --checks also what .ci/run
-# needs, a second OpenCL driver from Python's package index among it. Silent, and without network, when nothing is missing.
+# needs, a second OpenCL driver from Python's package index among it. Silent, and without network, when nothing is
+# missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

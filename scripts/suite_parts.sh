@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Cuts suites into parts for processes that run side by side: no suite alone keeps one core busy while the other is idle. Prints a
-# line "SUITE FIRST LAST" for each part, numbers of test cases as boxwood-tests --first and --last take them.
+# Cuts suites into parts for processes that run side by side: no suite alone keeps one core busy while the other is
+# idle. Prints a line "SUITE FIRST LAST" for each part, numbers of test cases as boxwood-tests --first and --last take
+# them.
 # usage: scripts/suite_parts.sh BOXWOOD_TESTS SIZE SUITE...
 set -euo pipefail
 

@@ -16,4 +16,5 @@ fi
 cmake --preset release
 cmake --build --preset release
 # As many at once as there are cores: most of their time is that of compilers of kernels, on one core each.
-ctest --test-dir build/release --build-config "$configuration" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"
+ctest --test-dir build/release --build-config "$configuration" --parallel "$(nproc)" --output-on-failure \
+    --no-tests=error "$@"

@@ -7,10 +7,11 @@ function(boxwood_warnings target)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
   if(BOXWOOD_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
+      -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=address,undefined)
     # Only here, so that other builds show where a file does not include what it needs.
-    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <sstream>
-      <string> <vector> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
+    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
+      <sstream> <string> <vector> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
   endif()
 endfunction()

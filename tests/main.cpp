@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR, --seed=N and --tuning=GROUP,ITEMS,SLICE,LANES.
+// boxwood-tests: qualifies a device. doctest's options, plus --device=SELECTOR, --seed=N and
+// --tuning=GROUP,ITEMS,SLICE,LANES.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -39,8 +40,8 @@ bool small_sizes() { return std::getenv("BOXWOOD_SMALL") != nullptr; }
 
 namespace {
 
-/// Empties the device's pool before each test case under a checker: Oclgrind goes through every byte of every buffer, used or not,
-/// after each kernel.
+/// Empties the device's pool before each test case under a checker: Oclgrind goes through every byte of every buffer,
+/// used or not, after each kernel.
 struct EmptyPool : doctest::IReporter {
     explicit EmptyPool(const doctest::ContextOptions&) {}
     void test_case_start(const doctest::TestCaseData&) override {
@@ -100,6 +101,7 @@ int run(int argc, char** argv) {
 
     doctest::Context context(static_cast<int>(arguments.size()), arguments.data());
     device_under_test = std::make_unique<Device>(selector);
+    device_under_test->state().checks_arguments = true;
     if (!tuning.empty()) device_under_test->set_tuning(to_tuning(tuning));
     add_kernels(test_kernels);
     const DeviceInfo& info = device_under_test->info();

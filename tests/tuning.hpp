@@ -24,7 +24,8 @@ private:
     Tuning previous_;
 };
 
-/// The tuning of the device's class with one compute unit, with two, and with up to `most`. Units are threads, on a CPU.
+/// The tuning of the device's class with one compute unit, with two, and with up to `most`. Units are threads, on a
+/// CPU.
 inline std::vector<Tuning> tunings_by_compute_units(std::uint32_t most) {
     std::vector<Tuning> tunings;
     for (const std::uint32_t units : {1u, 2u, 12u, 100u, 1000u}) {
@@ -52,8 +53,9 @@ void check_memory_by_compute_units(const Run& run, std::uint32_t most = 1000) {
     }
 }
 
-/// The device's own tuning, groups that divide nothing, groups like a GPU's with slices as short as they get, and one slice for
-/// everything, where work-items behind it in its group must not begin again beyond 2^32 (the first two under a checker).
+/// The device's own tuning, groups that divide nothing, groups like a GPU's with slices as short as they get, and one
+/// slice for everything, where work-items behind it in its group must not begin again beyond 2^32 (the first two under
+/// a checker).
 inline std::vector<Tuning> tunings() {
     if (small_sizes()) return {test_device().tuning(), {3, 7, 5}};
     return {test_device().tuning(), {3, 7, 5}, {64, 4096, 1, 8}, {3, 16, 1u << 31}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles of no area. Sheared along a ray (traverse/ray_triangle.h) their vertices are rounded and may span one, so they are
-// told from others where leaves are made, exactly.
+// Triangles of no area. Sheared along a ray (traverse/ray_triangle.h) their vertices are rounded and may span one, so
+// they are told from others where leaves are made, exactly.
 #ifndef BOXWOOD_BOUNDS_COLLINEAR_H
 #define BOXWOOD_BOUNDS_COLLINEAR_H
 #include "runtime/expansion.h"
@@ -26,10 +26,11 @@ inline bool is_collinear2(float2 a, float2 b, float2 c) {
     return is_zero(&twice_area);
 }
 
-/// Whether three points are on one line, exactly for coordinates whose last bits are within 2^-110 of the largest coordinate.
+/// Whether three points are on one line, exactly for coordinates whose last bits are within 2^-110 of the largest
+/// coordinate.
 ///
-/// Nearly always the rounded normal decides. Edges p and q are off by u of themselves (u = 2^-24), so that a component of p x q is off
-/// by 2u of its two products and, by the two roundings of each, 3u more.
+/// Nearly always the rounded normal decides. Edges p and q are off by u of themselves (u = 2^-24), so that a component
+/// of p x q is off by 2u of its two products and, by the two roundings of each, 3u more.
 inline bool is_collinear(float3 a, float3 b, float3 c) {
     const float3 p = (b - a) * scale_to(b - a, 0), q = (c - a) * scale_to(c - a, 0);
     const float3 r = p.yzx * q.zxy, s = p.zxy * q.yzx;

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Eigenvectors of symmetric 3x3 matrices by Jacobi's method (Golub and Van Loan, 8.5): a bounded number of plane rotations,
-// each of which is orthogonal whatever the matrix, so that repeated and zero eigenvalues need no special case.
+// Eigenvectors of symmetric 3x3 matrices by Jacobi's method (Golub and Van Loan, 8.5): a bounded number of plane
+// rotations, each of which is orthogonal whatever the matrix, so that repeated and zero eigenvalues need no special
+// case.
 #ifndef BOXWOOD_BOUNDS_EIGEN_H
 #define BOXWOOD_BOUNDS_EIGEN_H
 #include "runtime/vector.h"
 
 // JACOBI_SWEEPS  Converges quadratically: four sweeps take the entries off the diagonal of any float matrix below the
-//                rounding of those on it, the fifth is for the worst found by search. Where only the size of a box depends
-//                on it two or three will do: whoever defines it says what that costs.
+//                rounding of those on it, the fifth is for the worst found by search. Where only the size of a box
+//                depends on it two or three will do: whoever defines it says what that costs.
 #ifndef JACOBI_SWEEPS
 #define JACOBI_SWEEPS 5
 #endif
 
-/// Entries off the diagonal vanish quadratically. Beside the largest entry, which is 1, one below 2^-60 is far beyond the
-/// rounding of the matrix, and its products would be denormal, which is slow: it is taken for zero.
+/// Entries off the diagonal vanish quadratically. Beside the largest entry, which is 1, one below 2^-60 is far beyond
+/// the rounding of the matrix, and its products would be denormal, which is slow: it is taken for zero.
 INLINE real without_dust(real entry) { return CHOOSE(fabs(entry) > 0x1p-60f, entry, (real)(0.0f)); }
 
-/// Rotates rows p and q of the frame so that the entry `pq` of the matrix becomes zero. `rp`, `rq` are the other entries of
-/// the rows, in the third row.
+/// Rotates rows p and q of the frame so that the entry `pq` of the matrix becomes zero. `rp`, `rq` are the other
+/// entries of the rows, in the third row.
 INLINE void jacobi_rotate(real* pp, real* qq, real* pq, real* rp, real* rq, Vector* p, Vector* q) {
     const real difference = *qq - *pp;
     const real twice = 2.0f * *pq;
     const real length = fabs(difference) + sqrt(fma(difference, difference, twice * twice));
-    const real t = CHOOSE(length > 0.0f, copysign(twice / length, twice * copysign((real)(1.0f), difference)),
-                          (real)(0.0f));
+    const real t =
+        CHOOSE(length > 0.0f, copysign(twice / length, twice * copysign((real)(1.0f), difference)), (real)(0.0f));
     const real c = 1.0f / sqrt(fma(t, t, (real)(1.0f)));
     const real s = t * c;
     *pp = fma(-t, *pq, *pp);
@@ -49,9 +50,9 @@ INLINE void order_axes(real* first, real* second, Vector* p, Vector* q) {
     choose3(swapped, &old, q);
 }
 
-/// Eigenvectors of any finite `matrix` as rows of `frame`, by descending eigenvalue; of a zero matrix the identity. With
-/// repeated eigenvalues some orthonormal choice. The matrix times a power of two has the same ones, to the bit, unless its
-/// entries lose digits by that.
+/// Eigenvectors of any finite `matrix` as rows of `frame`, by descending eigenvalue; of a zero matrix the identity.
+/// With repeated eigenvalues some orthonormal choice. The matrix times a power of two has the same ones, to the bit,
+/// unless its entries lose digits by that.
 INLINE void eigenvectors(const Symmetric* matrix, Frame* frame) {
     Symmetric m = *matrix;
     real largest = larger(larger(fabs(m.xx), fabs(m.yy)), fabs(m.zz));

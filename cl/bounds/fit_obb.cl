@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes of segments of points or triangles by principal component analysis (dissertation 3.1.3; Gottschalk 2000;
-// for triangles continuous over the surface, as there). These kernels are what lies between segmented reductions: each
-// element leaves a value, the reduction makes one of a segment's, and the next kernel starts from that.
+// Oriented boxes of segments of points or triangles by principal component analysis (dissertation 3.1.3; Gottschalk
+// 2000; for triangles continuous over the surface, as there). These kernels are what lies between segmented reductions:
+// each element leaves a value, the reduction makes one of a segment's, and the next kernel starts from that.
 //
-// A segment computes in the space of its AABB (bounds/oriented_box.h). Second moments are taken about the mean, in a pass
-// after the one that finds it, so that nothing cancels wherever the mean lies.
+// A segment computes in the space of its AABB (bounds/oriented_box.h). Second moments are taken about the mean, in a
+// pass after the one that finds it, so that nothing cancels wherever the mean lies.
 //
 // GROUP_SIZE  work-items per group, 1 or more
 // CORNERS     vertices per element: 1 for points, 3 for triangles
@@ -21,8 +21,8 @@
 #include "bounds/segment.h"
 
 /// boxes[i] = AABB of element i.
-/// @pre  `positions` holds 3 floats per vertex, `triangles` CORNERS indices per element (not read for points). Slices of
-///       `length` elements, `slices` of them; so in all kernels over elements.
+/// @pre  `positions` holds 3 floats per vertex, `triangles` CORNERS indices per element (not read for points). Slices
+///       of `length` elements, `slices` of them; so in all kernels over elements.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void element_boxes(global const float* positions, global const uint* triangles, global Aabb* boxes, uint count,
                    uint length, uint slices) {
@@ -42,11 +42,11 @@ void element_boxes(global const float* positions, global const uint* triangles, 
     }
 }
 
-/// first[i] = (weight times centroid, weight) of element i in its segment's space. A point weighs 1. A triangle weighs its
-/// area and, in units of its mesh's size squared, 2^-40: that decides where a mesh has no area, and is below the
+/// first[i] = (weight times centroid, weight) of element i in its segment's space. A point weighs 1. A triangle weighs
+/// its area and, in units of its mesh's size squared, 2^-40: that decides where a mesh has no area, and is below the
 /// rounding of any other.
-/// @pre  `offsets` has segments + 1 ascending entries, aabbs[s] is the AABB of segment s; so below. Elements of no segment
-///       are not written.
+/// @pre  `offsets` has segments + 1 ascending entries, aabbs[s] is the AABB of segment s; so below. Elements of no
+///       segment are not written.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void first_moments(global const float* positions, global const uint* triangles, global const uint* offsets,
                    global const Aabb* aabbs, global float* first_moment, uint count, uint segments, uint length,
@@ -70,8 +70,8 @@ void first_moments(global const float* positions, global const uint* triangles, 
     }
 }
 
-/// Second moments of element i about the mean of its segment, as xx, yy, zz, xy in diagonal[i] and xz, yz in rest[i]. For a
-/// triangle of area A with corners p_k and centroid m, the integral over it is
+/// Second moments of element i about the mean of its segment, as xx, yy, zz, xy in diagonal[i] and xz, yz in rest[i].
+/// For a triangle of area A with corners p_k and centroid m, the integral over it is
 /// A (m - mean)(m - mean)^T + A/12 sum (p_k - m)(p_k - m)^T.
 /// @pre  first_moment[s] is the sum over segment s.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
@@ -106,8 +106,8 @@ void second_moments(global const float* positions, global const uint* triangles,
     }
 }
 
-/// The axes of boxes[s] become the eigenvectors of the second moments of segment s. close[s]: 1 when two eigenvalues are so
-/// close that the sampling of a shape more than the shape decides between its axes; 0 otherwise.
+/// The axes of boxes[s] become the eigenvectors of the second moments of segment s. close[s]: 1 when two eigenvalues
+/// are so close that the sampling of a shape more than the shape decides between its axes; 0 otherwise.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void principal_axes(global const uint* offsets, global const float* diagonal, global const float* rest,
                     global Obb* boxes, global uint* close, uint segments, uint length, uint slices) {
@@ -152,8 +152,8 @@ void element_slabs(global const float* positions, global const uint* triangles, 
     }
 }
 
-/// boxes[s] = the box with its axes and the ends `slabs[s]`. Where `turned_slabs` belong to a smaller box, those and the axes of
-/// turned[s] are taken; without a second fit both are given twice. An empty segment gets the empty box.
+/// boxes[s] = the box with its axes and the ends `slabs[s]`. Where `turned_slabs` belong to a smaller box, those and
+/// the axes of turned[s] are taken; without a second fit both are given twice. An empty segment gets the empty box.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void finish_fits(global const uint* offsets, global const Aabb* aabbs, global const Aabb* slabs,
                  global const Aabb* turned_slabs, global const Obb* turned, global Obb* boxes, uint segments,
@@ -181,7 +181,8 @@ void finish_fits(global const uint* offsets, global const Aabb* aabbs, global co
         const bool smaller_turned = half_area(&turned_ends) < half_area(&ends);
         if (smaller_turned) ends = turned_ends;
         load_frame(smaller_turned ? turned : boxes, &s, &axes);
-        // What is too small beside the unit of the space was rounded to its denormals, in a coordinate and its products.
+        // What is too small beside the unit of the space was rounded to its denormals, in a coordinate and its
+        // products.
         const float dust = 0x1p-146f;
         const Vector inexact = {dust, dust, dust};
         finish_boxes(&space, &axes, &ends, &inexact, boxes, &s, 1);

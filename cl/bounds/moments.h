@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First and second moments of weighted points, merged pairwise (Chan, Golub and LeVeque 1979): the mean is an offset from a
-// reference near the points and the second moment is about the mean, so nothing cancels far from the origin.
+// First and second moments of weighted points, merged pairwise (Chan, Golub and LeVeque 1979): the mean is an offset
+// from a reference near the points and the second moment is about the mean, so nothing cancels far from the origin.
 #ifndef BOXWOOD_BOUNDS_MOMENTS_H
 #define BOXWOOD_BOUNDS_MOMENTS_H
 #include "runtime/vector.h"
@@ -21,7 +21,8 @@ INLINE void add_outer(real factor, const Vector* v, Symmetric* m) {
     m->yz = fma(y, v->z, m->yz);
 }
 
-/// Joins `other`, whose points have the part `weight` (0 to 1) of the weight of both. Both means have the same reference.
+/// Joins `other`, whose points have the part `weight` (0 to 1) of the weight of both. Both means have the same
+/// reference.
 INLINE void merge_moments(real weight, const Moments* other, Moments* m) {
     const Vector between = {other->mean.x - m->mean.x, other->mean.y - m->mean.y, other->mean.z - m->mean.z};
     add_scaled3(weight, &between, &m->mean);

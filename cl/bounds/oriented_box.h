@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes in registers, LANES at a time: reading, writing, and what a node does with a fitted frame: extents with
-// a bound on their rounding, centre, and the choice between the box and the node's AABB (dissertation 3.1.3 and 3.5).
+// Oriented boxes in registers, LANES at a time: reading, writing, and what a node does with a fitted frame: extents
+// with a bound on their rounding, centre, and the choice between the box and the node's AABB (dissertation 3.1.3 and
+// 3.5).
 //
-// A node computes in a space of its own, p' = (p - origin) / unit, with the centre of its AABB and a power of two near its
-// size, so that nothing overflows, what underflows is far below rounding, digits are kept far from the origin, and a scene scaled by a power of two
-// gives the same bits.
+// A node computes in a space of its own, p' = (p - origin) / unit, with the centre of its AABB and a power of two near
+// its size, so that nothing overflows, what underflows is far below rounding, digits are kept far from the origin, and
+// a scene scaled by a power of two gives the same bits.
 //
 // MEASURE_AREA  0: the smaller volume is kept; 1: the smaller surface area
 // FALLBACK      1: a node keeps its AABB where its oriented box is not smaller; 0: never
@@ -52,8 +53,8 @@ INLINE void space_of(global const Aabb* aabbs, const uint* index, Space* space) 
     space->origin.y = 0.5f * low.y + 0.5f * high.y;
     space->origin.z = 0.5f * low.z + 0.5f * high.z;
     const Vector extent = {high.x - low.x, high.y - low.y, high.z - low.z};
-    // A box of no extent still needs 1 / unit times its coordinates to be finite. Any other extent is at least a unit in the
-    // last place of a coordinate, so the second term does not count then.
+    // A box of no extent still needs 1 / unit times its coordinates to be finite. Any other extent is at least a unit
+    // in the last place of a coordinate, so the second term does not count then.
     space->unit = power_below(larger(largest3(&extent), 0x1p-30f * largest3(&space->origin)));
     space->inverse_unit = inverse_power(space->unit);
     to_space(space, &low, &space->low);
@@ -112,8 +113,8 @@ INLINE void add_point(const Frame* axes, const Vector* p, Slabs* slabs) {
 
 /// Takes in the 8 corners of an orthonormal box, center +- extent[k] axis[k]: along an axis they reach
 /// sum extent[k] |axis . axis[k]| to either side. What that lacks to the true box is below 64 roundoffs of
-/// |axis| . |center| + sum extent[k]: 4 for the dot products, 4 for the sums, and for the box's edges, which are the columns of
-/// the inverse of its axes and not exactly their rows, 42 (24 in each of three entries, see orthonormalise).
+/// |axis| . |center| + sum extent[k]: 4 for the dot products, 4 for the sums, and for the box's edges, which are the
+/// columns of the inverse of its axes and not exactly their rows, 42 (24 in each of three entries, see orthonormalise).
 INLINE void add_box_along(const Vector* axis, const OrientedBox* box, real* low, real* high) {
     const real middle = dot3(axis, &box->center);
     const real a = fabs(dot3(axis, &box->axes.a)), b = fabs(dot3(axis, &box->axes.b)),
@@ -150,8 +151,9 @@ INLINE void add_box(const Frame* axes, const OrientedBox* box, Slabs* slabs) {
     add_box_along(&axes->c, box, &slabs->low.z, &slabs->high.z);
 }
 
-/// Half a width about the projection of the stored centre, and the bound on its rounding. `reach` bounds the coordinates of
-/// the points in the space, `center` is the stored centre there, `inexact` the error that the points had before.
+/// Half a width about the projection of the stored centre, and the bound on its rounding. `reach` bounds the
+/// coordinates of the points in the space, `center` is the stored centre there, `inexact` the error that the points had
+/// before.
 ///
 /// The projection of a point takes 4 roundoffs of |axis| . reach (one of the difference from the origin, three of the
 /// products and sums), that of the centre 4 of |axis| . |center|, the two differences below one each of their sum: 6 of
@@ -191,8 +193,8 @@ INLINE void store_frame(const Frame* axes, global Obb* boxes, const uint* index,
     store_boxes(&box, none.x != none.x, boxes, index, count);
 }
 
-/// From a frame and the slabs of all that lies below to the node's box, stored: the centre rounded to float, the widths about
-/// what was stored. `inexact` as in half_width.
+/// From a frame and the slabs of all that lies below to the node's box, stored: the centre rounded to float, the widths
+/// about what was stored. `inexact` as in half_width.
 INLINE void finish_boxes(const Space* space, const Frame* axes, const Slabs* slabs, const Vector* inexact,
                          global Obb* boxes, const uint* index, uint count) {
     OrientedBox box;

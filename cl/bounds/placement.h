@@ -8,12 +8,12 @@
 
 /// Object space: how far off, along each axis, a ray may be that traversal moved there, at whatever it hits.
 ///
-/// Let u = 2^-24, M the linear part of to_object, p the instance's place and r the sphere's radius. Origins are within 8r of its center
-/// c on every axis (far ones are moved: far_origin.h) and everything else within r, so that E_k = 8r + |c_k - p_k| bounds what is
-/// subtracted and t |d_k| <= 9r. The difference and three products move the origin: 4u |M| E. The direction: 3u |M| t |d| <=
-/// 27u |M| r. The hit is off the ray, or along it, by 10u of its way, 90u |M| r, and by 17u of the triangle's longest extent, itself at
-/// most 2r in world space: 34u |M| r. The matrix is the inverse rounded once, on the way back too: 2u |M| E. In all at most
-/// |M| (151r + 6E) u; 24u |M| E are taken.
+/// Let u = 2^-24, M the linear part of to_object, p the instance's place and r the sphere's radius. Origins are within
+/// 8r of its center c on every axis (far ones are moved: far_origin.h) and everything else within r, so that E_k = 8r +
+/// |c_k - p_k| bounds what is subtracted and t |d_k| <= 9r. The difference and three products move the origin: 4u |M|
+/// E. The direction: 3u |M| t |d| <= 27u |M| r. The hit is off the ray, or along it, by 10u of its way, 90u |M| r, and
+/// by 17u of the triangle's longest extent, itself at most 2r in world space: 34u |M| r. The matrix is the inverse
+/// rounded once, on the way back too: 2u |M| E. In all at most |M| (151r + 6E) u; 24u |M| E are taken.
 inline void object_error(global const InstanceRecord* record, const SceneSphere* sphere, float* error) {
     for (int row = 0; row < 3; ++row) {
         float sum = 0.0f;

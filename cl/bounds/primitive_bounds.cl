@@ -19,11 +19,11 @@ void triangle_bounds(global const float* positions, global const uint* triangles
     }
 }
 
-/// boxes[i] = conservative world box of instance i: its mesh's box under to_world, padded outward by the roundings of that and by
-/// placement_error(), in the scene's `sphere`.
+/// boxes[i] = conservative world box of instance i: its mesh's box under to_world, padded outward by the roundings of
+/// that and by placement_error(), in the scene's `sphere`.
 ///
-/// Each bound is a sum of three products and a translation. With u = 2^-24 and S the sum of the terms' magnitudes, its rounding error
-/// is at most 4u S (Higham, gamma_4); 6u with that of the last sum.
+/// Each bound is a sum of three products and a translation. With u = 2^-24 and S the sum of the terms' magnitudes, its
+/// rounding error is at most 4u S (Higham, gamma_4); 6u with that of the last sum.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void instance_bounds(global const InstanceRecord* instances, global const Aabb* mesh_boxes, global Aabb* boxes,
                      uint count, SceneSphere sphere) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rotations as unit quaternions: of frames, half-way between the frames of two boxes (dissertation 3.5, third algorithm),
-// and the rotation in any matrix (Mueller, Bender, Chentanez and Macklin 2016).
+// Rotations as unit quaternions: of frames, half-way between the frames of two boxes (dissertation 3.5, third
+// algorithm), and the rotation in any matrix (Mueller, Bender, Chentanez and Macklin 2016).
 #ifndef BOXWOOD_BOUNDS_ROTATION_H
 #define BOXWOOD_BOUNDS_ROTATION_H
 #include "bounds/eigen.h"
@@ -47,8 +47,8 @@ INLINE void conjugate4(Quaternion* q) {
 }
 
 /// The rotation that turns the axes of the world into those of an orthonormal, right-handed frame. One component is at
-/// least 1/2; its square is on the diagonal, and the others follow from it without cancellation (Shepperd 1978). Of equal
-/// ones the first of w, x, y, z is taken.
+/// least 1/2; its square is on the diagonal, and the others follow from it without cancellation (Shepperd 1978). Of
+/// equal ones the first of w, x, y, z is taken.
 INLINE void quaternion_of(const Frame* frame, Quaternion* q) {
     const real ax = frame->a.x, by = frame->b.y, cz = frame->c.z;
     const real dx = frame->b.z - frame->c.y, dy = frame->c.x - frame->a.z, dz = frame->a.y - frame->b.x;
@@ -86,10 +86,11 @@ INLINE real leads(real first, real second) { return CHOOSE(first >= second, (rea
 
 INLINE real with_sign_of(real magnitude, real sign) { return CHOOSE(sign < 0.0f, -magnitude, magnitude); }
 
-/// The rotation of the cube that is nearest to a rotation r, as the unit quaternion h of largest dot product with r. The 24
-/// rotations of the cube are the 48 quaternions that have one component of 1, two of 1/sqrt(2), or four of 1/2, with any
-/// signs: h has the signs of r, and of the three kinds the one where the sum of its components of r is largest. Ties go
-/// to the first of w, x, y, z and to fewer components, so that no relabelling wins over any other as near.
+/// The rotation of the cube that is nearest to a rotation r, as the unit quaternion h of largest dot product with r.
+/// The 24 rotations of the cube are the 48 quaternions that have one component of 1, two of 1/sqrt(2), or four of 1/2,
+/// with any signs: h has the signs of r, and of the three kinds the one where the sum of its components of r is
+/// largest. Ties go to the first of w, x, y, z and to fewer components, so that no relabelling wins over any other as
+/// near.
 INLINE void nearest_cube_rotation(const Quaternion* r, Quaternion* h) {
     const real x = fabs(r->x), y = fabs(r->y), z = fabs(r->z), w = fabs(r->w);
     const real wx = leads(w, x), wy = leads(w, y), wz = leads(w, z);
@@ -112,8 +113,8 @@ INLINE void nearest_cube_rotation(const Quaternion* r, Quaternion* h) {
     h->w = with_sign_of(CHOOSE(w_led >= enough, size, none), r->w);
 }
 
-/// The rotation half-way from p to q as orientations of boxes: q is first matched with -q and with the 24 ways to label a
-/// box's axes, and the one nearest to p is taken. That is at most 62.8 degrees away, so the sum never cancels.
+/// The rotation half-way from p to q as orientations of boxes: q is first matched with -q and with the 24 ways to label
+/// a box's axes, and the one nearest to p is taken. That is at most 62.8 degrees away, so the sum never cancels.
 INLINE void blend_rotations(const Quaternion* p, const Quaternion* q, Quaternion* result) {
     Quaternion inverse = *p, between, nearest, matched;
     conjugate4(&inverse);
@@ -141,9 +142,9 @@ INLINE void blend_frames(const Frame* p, const Frame* q, Frame* result) {
 // Up to two to leave saddles, then convergence is quadratic: the tests reach rounding with five.
 #define ROTATION_STEPS 8
 
-/// What one step of extract_rotation turns about, in the frame of R. S is the symmetric part of B = R^T A and `turn` its
-/// axial vector, the axis of the paper. Along the eigenvectors of S the curvature of trace(R^T A) is S's eigenvalue less
-/// the trace; the axis is weighted by its inverse, as in Newton's method. Where a curvature has the wrong sign the
+/// What one step of extract_rotation turns about, in the frame of R. S is the symmetric part of B = R^T A and `turn`
+/// its axial vector, the axis of the paper. Along the eigenvectors of S the curvature of trace(R^T A) is S's eigenvalue
+/// less the trace; the axis is weighted by its inverse, as in Newton's method. Where a curvature has the wrong sign the
 /// step is about that eigenvector alone.
 INLINE void turning_axis(const Symmetric* s, const Vector* turn, Vector* axis) {
     Frame eigen;
@@ -169,12 +170,12 @@ INLINE void turning_axis(const Symmetric* s, const Vector* turn, Vector* axis) {
     *axis = weighted;
 }
 
-/// The rotation R in a finite matrix A with the columns of `matrix`: the one of largest trace(R^T A), which is the nearest
-/// in the Frobenius norm. Where that is not unique (rank below two, some reflections) one of the nearest. `q`: on entry
-/// where to start, a unit quaternion; any will do. Mueller et al. 2016 turn R about the axis of R^T A by an angle that is
-/// right near the end only, and stand still when R is exactly 180 degrees off. Here the angle is the best one about the
-/// axis, and saddles, such as that one, are left about the axis along which they fall off. The matrix is scaled by a
-/// power of two, so that its size does not matter, from denormal numbers to FLT_MAX; zero gives the start.
+/// The rotation R in a finite matrix A with the columns of `matrix`: the one of largest trace(R^T A), which is the
+/// nearest in the Frobenius norm. Where that is not unique (rank below two, some reflections) one of the nearest. `q`:
+/// on entry where to start, a unit quaternion; any will do. Mueller et al. 2016 turn R about the axis of R^T A by an
+/// angle that is right near the end only, and stand still when R is exactly 180 degrees off. Here the angle is the best
+/// one about the axis, and saddles, such as that one, are left about the axis along which they fall off. The matrix is
+/// scaled by a power of two, so that its size does not matter, from denormal numbers to FLT_MAX; zero gives the start.
 INLINE void extract_rotation(const Frame* matrix, Quaternion* q) {
     Frame m = *matrix;
     const real size = larger(largest3(&m.a), larger(largest3(&m.b), largest3(&m.c)));

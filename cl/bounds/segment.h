@@ -9,8 +9,8 @@
 #include "bounds/oriented_box.h"
 #include "primitives/segments.h"
 
-// Eigenvalues this close, relative to the larger, are close: random samples of a shape with a repeated one, some hundreds of
-// them, are as far apart.
+// Eigenvalues this close, relative to the larger, are close: random samples of a shape with a repeated one, some
+// hundreds of them, are as far apart.
 #define CLOSE 0.125f
 
 /// The vertex that is corner k of element i.

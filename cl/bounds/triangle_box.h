@@ -5,12 +5,13 @@
 #include "runtime/numerics.h"
 #include "shared/aabb.h"
 
-// Of a triangle's longest extent D: 18u with u = 2^-24. traverse/ray_triangle.h derives 16u D, and 17u D where the roundings of
-// the vertices' differences from the origin count too, as in oriented boxes, which are fitted to the corners of these boxes.
+// Of a triangle's longest extent D: 18u with u = 2^-24. traverse/ray_triangle.h derives 16u D, and 17u D where the
+// roundings of the vertices' differences from the origin count too, as in oriented boxes, which are fitted to the
+// corners of these boxes.
 #define TRIANGLE_PAD 0x1.2p-20f
 
-/// Planes moved outward by TRIANGLE_PAD of the longest extent at least: the difference itself rounds by u of the coordinate, so 1.5u
-/// of that is taken off with it. A single point, which no ray hits, is its own box.
+/// Planes moved outward by TRIANGLE_PAD of the longest extent at least: the difference itself rounds by u of the
+/// coordinate, so 1.5u of that is taken off with it. A single point, which no ray hits, is its own box.
 inline void padded_triangle_box(global const float* a, global const float* b, global const float* c, global Aabb* box) {
     float low[3], high[3], longest = 0.0f;
     for (int k = 0; k < 3; ++k) {

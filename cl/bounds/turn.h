@@ -8,12 +8,12 @@
 // Most points: both ways along 14 directions.
 #define EXTREMES 28
 
-constant char directions[3 * EXTREMES / 2] = {1, 0, 0,  0, 1, 0, 0, 0, 1, 1, 1, 0,  1, -1, 0, 1,  0, 1, 1,  0,  -1,
-                                              0, 1, 1,  0, 1, -1, 1, 1, 1, 1, 1, -1, 1, -1, 1, -1, 1, 1, -1, 1, 1};
+constant char directions[3 * EXTREMES / 2] = {1, 0, 0, 0, 1, 0,  0, 0, 1, 1, 1, 0,  1, -1, 0, 1,  0, 1, 1,  0, -1,
+                                              0, 1, 1, 0, 1, -1, 1, 1, 1, 1, 1, -1, 1, -1, 1, -1, 1, 1, -1, 1, 1};
 
-/// Direction `index` < 14: the axes of the world, the diagonals of its squares and of its cube (that of index 13 twice). Any
-/// octant of a frame, however turned, holds one of them or its opposite, so the corners of a cube are all found: they are
-/// at most 27.5 degrees apart from every direction, and an octant holds a cone of 35.3.
+/// Direction `index` < 14: the axes of the world, the diagonals of its squares and of its cube (that of index 13
+/// twice). Any octant of a frame, however turned, holds one of them or its opposite, so the corners of a cube are all
+/// found: they are at most 27.5 degrees apart from every direction, and an octant holds a cone of 35.3.
 INLINE void direction(uint index, Vector* d) {
     d->x = (float)directions[3 * index];
     d->y = (float)directions[3 * index + 1];
@@ -25,8 +25,8 @@ INLINE void ends_of(const Vector* points, int count, const Frame* axes, Slabs* e
     for (int i = 0; i < count; ++i) add_point(axes, &points[i], ends);
 }
 
-/// The point after `here` on the hull of points in the plane, clockwise seen from inside: the others lie to one side of the
-/// line through both. Points closer than SAME count as the same. -1 where there is no other.
+/// The point after `here` on the hull of points in the plane, clockwise seen from inside: the others lie to one side of
+/// the line through both. Points closer than SAME count as the same. -1 where there is no other.
 #define SAME 0x1p-18f
 static int next_on_hull(const float* x, const float* y, int count, int here) {
     int next = -1;
@@ -43,8 +43,8 @@ static int next_on_hull(const float* x, const float* y, int count, int here) {
 }
 
 /// Turns the frame about its third axis so that the box around the points has the smallest surface area. An edge of
-/// their hull in the plane of the first two axes then lies on the box (Freeman and Shapira 1975), so those are tried, at most
-/// as many as there are points. O(count^2).
+/// their hull in the plane of the first two axes then lies on the box (Freeman and Shapira 1975), so those are tried,
+/// at most as many as there are points. O(count^2).
 static void turn_about_third(const Vector* points, int count, Frame* axes, float* area) {
     float x[EXTREMES], y[EXTREMES];
     float low = INFINITY, high = -INFINITY;
@@ -135,8 +135,8 @@ static void between(const Vector* p, const Vector* q, Vector* d) {
     d->z = q->z - p->z;
 }
 
-/// The four corners of a large tetrahedron, as DiTO takes them: the two points farthest apart, the one farthest from the line
-/// through them, and the one farthest from the plane of the three. Equal ones where the points are flat.
+/// The four corners of a large tetrahedron, as DiTO takes them: the two points farthest apart, the one farthest from
+/// the line through them, and the one farthest from the plane of the three. Equal ones where the points are flat.
 static void large_tetrahedron(const Vector* points, int count, Vector* corners) {
     int p = 0, q = 0;
     float farthest = 0.0f;
@@ -177,8 +177,8 @@ static void large_tetrahedron(const Vector* points, int count, Vector* corners) 
     }
 }
 
-/// `axes`, or a frame that makes a smaller box around the points: the best that turning finds from `axes`, from the world's
-/// axes, and from those about the edges, the normal and the pairs of opposite edges of a large tetrahedron.
+/// `axes`, or a frame that makes a smaller box around the points: the best that turning finds from `axes`, from the
+/// world's axes, and from those about the edges, the normal and the pairs of opposite edges of a large tetrahedron.
 static void smallest_frame(const Vector* points, int count, Frame* axes) {
     Slabs ends;
     ends_of(points, count, axes, &ends);

@@ -24,8 +24,8 @@ INLINE ulong key_of(float value, uint vertex) {
     return (ulong)ordered << 32 | vertex;
 }
 
-/// keys[i] = how far element i of a segment with close[s] reaches, and at which vertex, along the two directions of `pass` and
-/// against them. Other elements are not written.
+/// keys[i] = how far element i of a segment with close[s] reaches, and at which vertex, along the two directions of
+/// `pass` and against them. Other elements are not written.
 /// @pre  as in fit_obb.cl.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void extreme_keys(global const float* positions, global const uint* triangles, global const uint* offsets,

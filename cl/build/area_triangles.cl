@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The triangles that reach into the region of an influence area, by separating axes in the coordinates of the area.
 //
-// A triangle is left out only when an axis n is found along which it is apart from the region by more than `margin`. Any axis
-// will do, so rounding of n is no matter. With e = 2^-24, N the sum of n's magnitudes, D the largest sum of the magnitudes of what
-// separates a corner from the area's origin and R that of the region's points, a corner's coordinates are off by at most 4 e D, its
-// place along n by 4 e D N + 3 e D N, and the region's ends by 6 e R N. Where rays are in the region by influence.h, points are
-// outside it by at most 24 e R (1 + t) at each side, so along n by 24 e R (1 + t) N (1 + t). What remains of the margin,
-// 128 e (D + R) N (1 + t)^2, covers that a hit's distance rounds: by a few e times the coordinates of the triangle.
-// The axes are all that it takes for two convex bodies: the region's normals, the triangle's, and the crosses of their edges.
+// A triangle is left out only when an axis n is found along which it is apart from the region by more than `margin`.
+// Any axis will do, so rounding of n is no matter. With e = 2^-24, N the sum of n's magnitudes, D the largest sum of
+// the magnitudes of what separates a corner from the area's origin and R that of the region's points, a corner's
+// coordinates are off by at most 4 e D, its place along n by 4 e D N + 3 e D N, and the region's ends by 6 e R N. Where
+// rays are in the region by influence.h, points are outside it by at most 24 e R (1 + t) at each side, so along n by 24
+// e R (1 + t) N (1 + t). What remains of the margin, 128 e (D + R) N (1 + t)^2, covers that a hit's distance rounds: by
+// a few e times the coordinates of the triangle. The axes are all that it takes for two convex bodies: the region's
+// normals, the triangle's, and the crosses of their edges.
 // compile: GROUP_SIZE=1
 #include "influence/influence.h"
 
@@ -32,7 +33,8 @@ INLINE bool apart(const Pair* pair, float3 axis) {
     }
     // The rectangle at each end of the region.
     const float reach = fabs(n.x) * pair->width + fabs(n.y) * pair->height;
-    const float first = pair->growth > 0.0f ? pair->near * reach : reach, last = pair->growth > 0.0f ? pair->far * reach : reach;
+    const float first = pair->growth > 0.0f ? pair->near * reach : reach,
+                last = pair->growth > 0.0f ? pair->far * reach : reach;
     const float least = fmin(pair->near * n.z - first, pair->far * n.z - last);
     const float most = fmax(pair->near * n.z + first, pair->far * n.z + last);
     return low - most > pair->margin || least - high > pair->margin;
@@ -42,7 +44,8 @@ INLINE bool apart(const Pair* pair, float3 axis) {
 INLINE bool apart_by_edges(const Pair* pair, const float3* edges, float3 edge) {
     for (int i = 0; i < 3; ++i) {
         const float3 a = edges[i];
-        if (apart(pair, (float3)(a.y * edge.z - a.z * edge.y, a.z * edge.x - a.x * edge.z, a.x * edge.y - a.y * edge.x)))
+        if (apart(pair,
+                  (float3)(a.y * edge.z - a.z * edge.y, a.z * edge.x - a.x * edge.z, a.x * edge.y - a.y * edge.x)))
             return true;
     }
     return false;

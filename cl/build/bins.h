@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bins of a node's extent along each axis, and the boxes and counts of the primitives in them. All of it by minima, maxima and
-// counts, so that the order of the work does not show.
+// Bins of a node's extent along each axis, and the boxes and counts of the primitives in them. All of it by minima,
+// maxima and counts, so that the order of the work does not show.
 //
 // BINS              most bins along an axis
 // BIN_BOX           1: bins of the node's box; 0: of the box of its primitives' centres, fewer for small nodes
@@ -107,8 +107,8 @@ INLINE void side_bounds(const Bins* bins, uint axis, uint bin, uint bin_count, f
 
 /// The bins of the records [begin, end), of at most `bins` bins along each axis. Two sets take turns: a record whose
 /// neighbour is in the same bin need not wait for it.
-INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* records, global const float* own_centres, uint begin,
-                        uint end, uint bin_count) {
+INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* records, global const float* own_centres,
+                        uint begin, uint end, uint bin_count) {
     clear_bins(bins, bin_count);
     uint i = begin;
     if (end - begin > FEW_RECORDS) {
@@ -126,10 +126,11 @@ INLINE void bin_records(Bins* bins, const Grid* grid, global const float8* recor
     for (; i < end; ++i) add_to_bins(bins, bin_at(grid, centre_of(records[i], own_centres)), records[i]);
 }
 
-/// Moves the records [begin, end) behind `next_left` or `next_right`, by the side of the plane at `limit` (see plane_at) that they
-/// are on, in order. *left and *right become the bounds of their centres.
-INLINE void partition_records(const Grid* grid, int4 limit, global const float8* from, global const float* own_centres, uint begin,
-                         uint end, global float8* to, uint next_left, uint next_right, float8* left, float8* right) {
+/// Moves the records [begin, end) behind `next_left` or `next_right`, by the side of the plane at `limit` (see
+/// plane_at) that they are on, in order. *left and *right become the bounds of their centres.
+INLINE void partition_records(const Grid* grid, int4 limit, global const float8* from, global const float* own_centres,
+                              uint begin, uint end, global float8* to, uint next_left, uint next_right, float8* left,
+                              float8* right) {
     float8 left_centres = NO_BOUNDS, right_centres = NO_BOUNDS;
     for (uint i = begin; i < end; ++i) {
         const float8 record = from[i];

@@ -3,8 +3,8 @@
 #ifndef BOXWOOD_BUILD_GAPS_H
 #define BOXWOOD_BUILD_GAPS_H
 
-/// The gap after position i, between it and i + 1. It grows with the rank of the highest bit in which the two differ, where a
-/// primitive has as bits its code, then the codes of later rounds (morton_runs.cl), then its position.
+/// The gap after position i, between it and i + 1. It grows with the rank of the highest bit in which the two differ,
+/// where a primitive has as bits its code, then the codes of later rounds (morton_runs.cl), then its position.
 typedef ushort gap_t;
 
 /// The gap where no node spans both neighbours: between trees and behind the last position. Larger than all others.

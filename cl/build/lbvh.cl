@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Hierarchy of linear BVHs from the gaps between sorted primitives: Karras's radix tree ("Maximizing parallelism in the
-// construction of BVHs, octrees, and k-d trees", 2012; dissertation 3.3.3), found bottom-up as by Apetrei ("Fast and simple
-// agglomerative LBVH construction", 2014): a range of positions knows its parent from the gaps at its two ends alone.
+// construction of BVHs, octrees, and k-d trees", 2012; dissertation 3.3.3), found bottom-up as by Apetrei ("Fast and
+// simple agglomerative LBVH construction", 2014): a range of positions knows its parent from the gaps at its two ends
+// alone.
 //
 // A work-item merges all nodes whose range lies inside its slice in plain order; only nodes across slices meet through
 // the hand-off. So one launch serves a CPU with a few long slices and a GPU with many short ones.
@@ -16,7 +17,7 @@ typedef struct Trees {
     global uint2* children;
     global uint* parents;
     global uint* far_ends;
-    global uint* outer_ends; ///< [2 p], [2 p + 1]: first position left, last position right of the split after p
+    global uint* outer_ends;    ///< [2 p], [2 p + 1]: first position left, last position right of the split after p
     global handoff_t* arrivals; ///< By split position: children that reached it through the hand-off
     uint count;
 } Trees;
@@ -62,16 +63,18 @@ inline void climb(const Trees* f, Range node) {
         const uint split = left ? node.last : node.first - 1;
         f->outer_ends[2 * split + (left ? 0 : 1)] = left ? node.first : node.last;
         if (!handoff_is_second(f->arrivals + split)) return;
-        if (left) node.last = f->outer_ends[2 * split + 1];
-        else node.first = f->outer_ends[2 * split];
+        if (left)
+            node.last = f->outer_ends[2 * split + 1];
+        else
+            node.first = f->outer_ends[2 * split];
         node.split = split;
     }
     write_root(f, node);
 }
 
 /// Nodes of one slice of sorted positions.
-/// Before: gaps[] are those after every position, arrivals are 0. After all work-items: children, parents and far_ends of
-/// every node are written.
+/// Before: gaps[] are those after every position, arrivals are 0. After all work-items: children, parents and far_ends
+/// of every node are written.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void lbvh(global const gap_t* gaps, global uint2* children, global uint* parents, global uint* far_ends,
           global uint* outer_ends, global handoff_t* arrivals, uint count, uint slice) {

@@ -52,7 +52,8 @@ inline Grid grid_of(global const Aabb* bounds) {
 
 inline KEY code(Box box, Grid grid) {
     // Halves of subnormal numbers round, so a centre may lie below the corner.
-    const float4 place = clamp((box_centre(box) - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
+    const float4 place =
+        clamp((box_centre(box) - grid.low) * grid.zoom * grid.scale, 0.0f, (float)((1 << AXIS_BITS) - 1));
 #if AXIS_BITS <= 10
     const uint4 cells = spread(convert_uint4(place));
 #else
@@ -61,10 +62,11 @@ inline KEY code(Box box, Grid grid) {
     return ((KEY)cells.x << 2) | ((KEY)cells.y << 1) | (KEY)cells.z;
 }
 
-/// keys[i] and order[i] = i, the pairs to sort, for the primitives of one slice. Trees are not empty, so stepping to the next tree is one step.
+/// keys[i] and order[i] = i, the pairs to sort, for the primitives of one slice. Trees are not empty, so stepping to
+/// the next tree is one step.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void morton_keys(global const Aabb* boxes, global const uint* offsets, global const Aabb* tree_bounds,
-                 global KEY* keys, global uint* order, uint trees, uint count, uint slice) {
+void morton_keys(global const Aabb* boxes, global const uint* offsets, global const Aabb* tree_bounds, global KEY* keys,
+                 global uint* order, uint trees, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);

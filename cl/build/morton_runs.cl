@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Gaps between sorted Morton codes, and the long runs of equal codes that a scene has when something small is beside
-// something large. The primitives of such runs get codes once more, in a later round, each run as a tree of its own within
-// the bounds of its centres, until no bits part them or no run is long.
+// something large. The primitives of such runs get codes once more, in a later round, each run as a tree of its own
+// within the bounds of its centres, until no bits part them or no run is long.
 //
 // KEY        type of a key: uint or ulong
 // TREE_IN_KEY     1: keys hold the tree (in later rounds: the run) above CODE_BITS; 0: one tree
@@ -24,9 +24,7 @@
 #endif
 
 /// The gap between codes that first differ in the highest bit of `difference`, not 0.
-inline gap_t gap_of_codes(KEY difference, uint rank) {
-    return (gap_t)(rank + 8 * sizeof(KEY) - (uint)clz(difference));
-}
+inline gap_t gap_of_codes(KEY difference, uint rank) { return (gap_t)(rank + 8 * sizeof(KEY) - (uint)clz(difference)); }
 
 /// @pre  keys are sorted; rank + 64 < NO_GAP, rank >= 32. Slices cover `count` > 0 positions.
 /// @post gaps[i] is the gap after position i, for all of them.
@@ -41,8 +39,7 @@ void key_gaps(global const KEY* keys, global gap_t* gaps, uint rank, uint count,
         gap_t gap = NO_GAP;
         if (i + 1 < count) {
             const KEY next = keys[i + 1];
-            if (TREE_OF(next) == TREE_OF(key))
-                gap = next == key ? gap_of_positions(i) : gap_of_codes(next ^ key, rank);
+            if (TREE_OF(next) == TREE_OF(key)) gap = next == key ? gap_of_positions(i) : gap_of_codes(next ^ key, rank);
             key = next;
         }
         gaps[i] = gap;
@@ -50,12 +47,13 @@ void key_gaps(global const KEY* keys, global gap_t* gaps, uint rank, uint count,
 }
 
 /// Parts runs by the sorted keys of a later round.
-/// @pre  places[k] is the position of the k-th primitive that was sorted, ascending; gaps[] holds the gaps before this round.
-///       `rank` is at least 64 below that of the round before. Slices cover `count` > 0 keys.
+/// @pre  places[k] is the position of the k-th primitive that was sorted, ascending; gaps[] holds the gaps before this
+///       round. `rank` is at least 64 below that of the round before. Slices cover `count` > 0 keys.
 /// @post Gaps between unlike codes of one run are set; those around runs and between equal codes are not touched.
 /// Places are distinct, so every gap has at most one writer: no barrier.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void run_gaps(global const KEY* keys, global const uint* places, global gap_t* gaps, uint rank, uint count, uint slice) {
+void run_gaps(global const KEY* keys, global const uint* places, global gap_t* gaps, uint rank, uint count,
+              uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count - 1);
@@ -71,9 +69,9 @@ typedef struct Cursor {
     global const KEY* keys;
     global const uint* offsets; ///< Of the trees.
     uint count;
-    uint run_length; ///< Of the shortest long run, at least 1.
+    uint run_length;  ///< Of the shortest long run, at least 1.
     uint whole_trees; ///< 0: codes did not part what is a run from end to end of its tree, and never will.
-    uint long_end; ///< Where the long run ends that was met last, as far as is known.
+    uint long_end;    ///< Where the long run ends that was met last, as far as is known.
 } Cursor;
 
 /// Takes note of a long run when at least run_length equal keys begin at i.
@@ -86,7 +84,7 @@ inline void look_ahead(Cursor* w, uint i) {
 
 /// A cursor that is about to look at position `begin`.
 inline Cursor cursor_at(global const KEY* keys, global const uint* offsets, uint begin, uint count, uint run_length,
-                      uint whole_trees) {
+                        uint whole_trees) {
     Cursor w = {keys, offsets, count, run_length, whole_trees, 0};
     for (uint i = begin - min(begin, run_length - 1); i < begin; ++i) look_ahead(&w, i);
     return w;
@@ -94,9 +92,10 @@ inline Cursor cursor_at(global const KEY* keys, global const uint* offsets, uint
 
 inline bool starts_run(const Cursor* w, uint i) { return i == 0 || w->keys[i - 1] != w->keys[i]; }
 
-/// @pre  keys are sorted, offsets[] says where each tree begins and the last one ends; run_length > 0. Slices cover `count` > 0 keys.
-/// @post counts[slice]: in the lower half how many primitives of the slice are in long runs, in the upper half how many long
-///       runs begin there. A run that is a whole tree counts if whole_trees is not 0.
+/// @pre  keys are sorted, offsets[] says where each tree begins and the last one ends; run_length > 0. Slices cover
+///       `count` > 0 keys.
+/// @post counts[slice]: in the lower half how many primitives of the slice are in long runs, in the upper half how many
+///       long runs begin there. A run that is a whole tree counts if whole_trees is not 0.
 /// Each count has one writer: no barrier.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void count_runs(global const KEY* keys, global const uint* offsets, global ulong* counts, uint run_length,
@@ -117,8 +116,8 @@ void count_runs(global const KEY* keys, global const uint* offsets, global ulong
 }
 
 /// @pre  counts[] are the sums of those of count_runs up to and with each slice; the rest is as there.
-/// @post members[] are the positions within long runs, ascending; starts[] where each run begins in members[], and behind the
-///       last their number.
+/// @post members[] are the positions within long runs, ascending; starts[] where each run begins in members[], and
+///       behind the last their number.
 /// A slice writes what its count says, between those of its neighbours: no barrier.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void list_runs(global const KEY* keys, global const uint* offsets, global const ulong* counts, global uint* members,
@@ -142,7 +141,8 @@ void list_runs(global const KEY* keys, global const uint* offsets, global const 
 
 /// centres[k] is the centre of the box of primitives[k], as a box without extent.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void run_centres(global const Aabb* boxes, global const uint* primitives, global Aabb* centres, uint count, uint slice) {
+void run_centres(global const Aabb* boxes, global const uint* primitives, global Aabb* centres, uint count,
+                 uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);

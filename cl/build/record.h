@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records of primitives as the top-down builder moves them: bounds in one vector, and the index in a lane that they leave free.
+// Records of primitives as the top-down builder moves them: bounds in one vector, and the index in a lane that they
+// leave free.
 //
 // OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
 #ifndef BOXWOOD_BUILD_RECORD_H
@@ -12,8 +13,8 @@
 #error "define OWN_CENTRES"
 #endif
 
-// Bounds in a vector: min x, y, z, unused, -max x, y, z, unused. One minimum joins two. A primitive's record is its bounds with
-// its index in the first unused lane, as a number that arithmetic takes no detour for.
+// Bounds in a vector: min x, y, z, unused, -max x, y, z, unused. One minimum joins two. A primitive's record is its
+// bounds with its index in the first unused lane, as a number that arithmetic takes no detour for.
 #define NO_BOUNDS ((float8)(INFINITY))
 #define INDEX_MARK 0x40000000u
 

@@ -26,7 +26,7 @@ inline Box box_of(float8 bounds) {
 /// The best plane so far: primitives in bins below `bin` of `axis` go left.
 typedef struct Plane {
     float cost;
-    uint larger;   ///< Primitives on the side with more of them; of equal costs the more even split is better.
+    uint larger;         ///< Primitives on the side with more of them; of equal costs the more even split is better.
     float probabilities; ///< Of both sides, added.
     uint axis;
     uint bin;
@@ -47,7 +47,8 @@ INLINE float probability_of(const Distribution* d, float8 bounds, bool fallback)
 }
 
 /// Tries all planes between bins of an axis. A plane beside an empty bin parts as the one before does.
-INLINE void try_axis(const Distribution* d, const Bins* bins, const Question* q, uint axis, bool fallback, Plane* best) {
+INLINE void try_axis(const Distribution* d, const Bins* bins, const Question* q, uint axis, bool fallback,
+                     Plane* best) {
     const uint base = axis * BINS;
     float8 rights[BINS];
     float probabilities[BINS];
@@ -70,8 +71,14 @@ INLINE void try_axis(const Distribution* d, const Bins* bins, const Question* q,
         left_count += added;
         if (left_count == q->count) return;
         const uint right_count = q->count - left_count;
-        const Pair pair = {box_of(q->bounds), box_of(side), box_of(rights[s]), left_count, right_count,
-                           q->probability,         probability_of(d, side, fallback), probabilities[s]};
+        const Pair pair = {box_of(q->bounds),
+                           box_of(side),
+                           box_of(rights[s]),
+                           left_count,
+                           right_count,
+                           q->probability,
+                           probability_of(d, side, fallback),
+                           probabilities[s]};
         const float cost = COST(d, &pair);
         const uint larger = max(left_count, right_count);
         if (cost < best->cost || (cost == best->cost && larger < best->larger)) {
@@ -112,8 +119,8 @@ INLINE uint fall_back(const Distribution* d, const Bins* bins, const Question* q
     return tried;
 }
 
-/// The paper's figure 9: axes by falling quality until the children are good, else the fallback. A node that no ray meets has no
-/// good children. Returns marks; best->axis is NO_AXIS when no plane parts the primitives.
+/// The paper's figure 9: axes by falling quality until the children are good, else the fallback. A node that no ray
+/// meets has no good children. Returns marks; best->axis is NO_AXIS when no plane parts the primitives.
 INLINE uint choose_plane(const Distribution* d, const Thresholds* t, const Bins* bins, const Question* q, Plane* best) {
     no_plane(best);
     uint tried = 0;
@@ -122,7 +129,8 @@ INLINE uint choose_plane(const Distribution* d, const Thresholds* t, const Bins*
         float quality[3];
         AXES(d, box_of(q->bounds), q->level, quality);
         for (uint left = 7; left != 0; ++tried) {
-            const float ratio = best->axis != NO_AXIS && q->probability > 0.0f ? best->probabilities / q->probability : INFINITY;
+            const float ratio =
+                best->axis != NO_AXIS && q->probability > 0.0f ? best->probabilities / q->probability : INFINITY;
             if (ratio <= t->excellent_children) break;
             const uint axis = best_axis(quality, left);
             left &= ~(1u << axis);

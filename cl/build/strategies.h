@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a top-down builder asks of a strategy, and the strategies there are (paper sections 7 and 8.1, thesis 4 and 5.1).
+// What a top-down builder asks of a strategy, and the strategies there are (paper sections 7 and 8.1,
+// thesis 4 and 5.1).
 //
-//   measure  float NAME(const Distribution* d, Box box)                                  probability that a ray meets the box
-//   cost     float NAME(const Distribution* d, const Pair* pair)                         of two children; the least wins
-//   axes     void NAME(const Distribution* d, Box node, uint level, float quality[3])    of planes across an axis: [0, 1]
-//   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)   whether a node is a leaf
+//   measure  float NAME(const Distribution* d, Box box)
+//            probability that a ray meets the box
+//   cost     float NAME(const Distribution* d, const Pair* pair)
+//            of two children; the least wins
+//   axes     void NAME(const Distribution* d, Box node, uint level, float quality[3])
+//            of planes across an axis: [0, 1]
+//   stop     bool NAME(const Distribution* d, const Thresholds* t, const NodeState* s)
+//            whether a node is a leaf
 //
 // MEASURE  the strategy's measure
 // BLOCK_SIZE    primitives that a leaf tests at once
@@ -28,13 +33,13 @@ typedef struct Pair {
 typedef struct NodeState {
     Box node;
     uint count;
-    uint level;        ///< The root's is 0.
+    uint level;             ///< The root's is 0.
     float probability;      ///< By the measure.
     float root_probability; ///< That of the whole tree.
 } NodeState;
 
-/// Testing a leaf costs the same however full it is, so in nodes of few leaves the primitives count as the leaves that hold them. In
-/// larger ones that would keep planes away from where boxes are smallest.
+/// Testing a leaf costs the same however full it is, so in nodes of few leaves the primitives count as the leaves that
+/// hold them. In larger ones that would keep planes away from where boxes are smallest.
 inline float rounded_count(uint count) {
     return (float)(count <= 4 * BLOCK_SIZE ? (count + BLOCK_SIZE - 1) / BLOCK_SIZE * BLOCK_SIZE : count);
 }
@@ -42,7 +47,8 @@ inline float rounded_count(uint count) {
 /// What the primitives on both sides cost.
 inline float measured_cost(const Distribution* d, const Pair* pair) {
     (void)d;
-    return pair->left_probability * rounded_count(pair->left_count) + pair->right_probability * rounded_count(pair->right_count);
+    return pair->left_probability * rounded_count(pair->left_count) +
+           pair->right_probability * rounded_count(pair->right_count);
 }
 
 /// Planes across the longer extents are the better ones; a point has no better axis.
@@ -56,10 +62,10 @@ inline void longest_axes(const Distribution* d, Box node, uint level, float qual
     quality[2] = longest > 0.0f ? extent.z / longest : 1.0f;
 }
 
-/// Planes that the rays see edge-on, whose two sides overlap least in what rays see: the splitting plane facing heuristic. The
-/// ray of a point area is the one through the middle of the node. Without areas all axes are as good. The quality is the square of
-/// 1 less the share of the axis in the ray's direction: the paper gives the share only, and with the square its thresholds give
-/// the numbers of axes tried and of fallbacks of its table 2.
+/// Planes that the rays see edge-on, whose two sides overlap least in what rays see: the splitting plane facing
+/// heuristic. The ray of a point area is the one through the middle of the node. Without areas all axes are as good.
+/// The quality is the square of 1 less the share of the axis in the ray's direction: the paper gives the share only,
+/// and with the square its thresholds give the numbers of axes tried and of fallbacks of its table 2.
 inline void facing_axes(const Distribution* d, Box node, uint level, float quality[3]) {
     (void)level;
     float facing[3] = {0.0f, 0.0f, 0.0f}, shares = 0.0f;
@@ -113,8 +119,9 @@ inline bool never(const Distribution* d, const Thresholds* t, const NodeState* s
 // The caller's own functions; they may use all of the above.
 #include "runtime/inserted.h"
 
-/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which both
-/// children share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no box to be skipped.
+/// measured_cost, and a quarter of what testing the smaller child's primitives costs the rays that meet the box which
+/// both children share: of planes that cost the same the one whose sides overlap less is better, as hits there leave no
+/// box to be skipped.
 inline float overlap_cost(const Distribution* d, const Pair* pair) {
     const float cost = measured_cost(d, pair);
     const Box shared = {(float4)(GREATER(pair->left.a.xyz, pair->right.a.xyz), fmin(pair->left.a.w, pair->right.a.w)),

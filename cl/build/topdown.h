@@ -9,7 +9,8 @@
 #include "runtime/inline.h"
 #include "shared/topdown.h"
 
-// What became of a node, in TopDownTree::leaves until they are told apart: MARK_LEAF, and of a split node the axes tried.
+// What became of a node, in TopDownTree::leaves until they are told apart: MARK_LEAF, and of a split node the axes
+// tried.
 #define MARK_LEAF 1u
 #define MARK_SPLIT 2u
 #define MARK_FALLBACK 4u
@@ -40,8 +41,8 @@ INLINE void write_node(const Nodes* n, uint first, uint count, uint flags, uint 
     n->marks[index] = mark;
 }
 
-// Nodes of more primitives than `chunk_size` are large: whole launches work on them, cut into chunks of so many consecutive
-// positions. Large nodes and small ones are counted in one number.
+// Nodes of more primitives than `chunk_size` are large: whole launches work on them, cut into chunks of so many
+// consecutive positions. Large nodes and small ones are counted in one number.
 #define ONE_LARGE (1ul << 32)
 
 /// Positions [begin, end) of a chunk, and the node they are in.

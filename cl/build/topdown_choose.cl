@@ -6,9 +6,9 @@
 // compile: BINS=16 BIN_BOX=1 PRIMITIVES_PER_BIN=1u BLOCK_SIZE=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
 #include "build/split.h"
 
-/// Chooses the plane of each node and writes the node; counts the kinds of its children and their chunks. A leaf goes on as a
-/// small node, whatever its size: it has nothing to decide any more. After: the first two slots of a node's bins are the bounds of
-/// its children.
+/// Chooses the plane of each node and writes the node; counts the kinds of its children and their chunks. A leaf goes
+/// on as a small node, whatever its size: it has nothing to decide any more. After: the first two slots of a node's
+/// bins are the bounds of its children.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_choose(global LargeNode* nodes, global float8* node_bins, global const uint* node_counts,
                     global const Aabb* tree_bounds, global const InfluenceRecord* areas, global const uint* area_starts,
@@ -22,7 +22,8 @@ void topdown_choose(global LargeNode* nodes, global float8* node_bins, global co
     rays_of_tree(tree_bounds, areas, area_starts, node.tree, &rays);
     const Thresholds limits = *thresholds;
     const float8 bounds = vload8(0, nodes[i].bounds);
-    const Question question = {bounds, node.count, node.level, bins_for(node.count), probability_of(&rays, bounds, false)};
+    const Question question = {bounds, node.count, node.level, bins_for(node.count),
+                               probability_of(&rays, bounds, false)};
     Plane plane;
     no_plane(&plane);
     uint mark = MARK_LEAF;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One level of a top-down build: all nodes that are too large for one work-item, cut into chunks of consecutive positions. The
-// launches are topdown_bin, topdown_merge, topdown_choose (topdown_choose.cl), scans of what it counted, topdown_scatter,
-// topdown_emit.
+// One level of a top-down build: all nodes that are too large for one work-item, cut into chunks of consecutive
+// positions. The launches are topdown_bin, topdown_merge, topdown_choose (topdown_choose.cl), scans of what it counted,
+// topdown_scatter, topdown_emit.
 //
 // Macros: build/bins.h.
 // compile: BINS=32 BIN_BOX=0 PRIMITIVES_PER_BIN=16u OWN_CENTRES=0
@@ -32,8 +32,8 @@ void topdown_bin(global const LargeNode* nodes, global const uint* first_chunks,
     }
 }
 
-/// Joins the slots of all chunks of a node, for one slice of slots of all nodes. After: chunk_counts holds what the chunks of the
-/// node before hold in that slot.
+/// Joins the slots of all chunks of a node, for one slice of slots of all nodes. After: chunk_counts holds what the
+/// chunks of the node before hold in that slot.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_merge(global const LargeNode* nodes, global const float8* chunk_bins, global uint* chunk_counts,
                    global float8* node_bins, global uint* node_counts, uint slots, uint slice, uint chunk_size) {
@@ -64,8 +64,8 @@ INLINE uint lefts_before(global const LargeNode* node, global const uint* counts
     return before;
 }
 
-/// Moves the records of a chunk to where its node's children want them, in order. Bounds of the centres that go left and
-/// right: chunk_bounds[2 i], [2 i + 1].
+/// Moves the records of a chunk to where its node's children want them, in order. Bounds of the centres that go left
+/// and right: chunk_bounds[2 i], [2 i + 1].
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_scatter(global const LargeNode* nodes, global const uint* first_chunks, global const float8* records,
                      global const float* own_centres, global const uint* chunk_counts, global float8* scattered,
@@ -83,20 +83,20 @@ void topdown_scatter(global const LargeNode* nodes, global const uint* first_chu
     const uint lefts = lefts_before(node, chunk_counts + i * (size_t)SLOTS, &chunk);
     const uint rights = chunk.begin - node->first - lefts;
     float8 left, right;
-    partition_records(&grid, limit, records, own_centres, chunk.begin, chunk.end, scattered, node->first + lefts, middle + rights, &left,
-                 &right);
+    partition_records(&grid, limit, records, own_centres, chunk.begin, chunk.end, scattered, node->first + lefts,
+                      middle + rights, &left, &right);
     chunk_bounds[2 * (size_t)i] = left;
     chunk_bounds[2 * (size_t)i + 1] = right;
 }
 
-/// Writes the children of each node as large or small nodes of the next level, and single ones as leaves. `kinds` and `chunks` are
-/// inclusive scans of what topdown_choose counted, small nodes come after the `small_before` of other levels.
+/// Writes the children of each node as large or small nodes of the next level, and single ones as leaves. `kinds` and
+/// `chunks` are inclusive scans of what topdown_choose counted, small nodes come after the `small_before` of other
+/// levels.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_emit(global const LargeNode* nodes, global const float8* node_bins, global const float8* scattered,
-                  global const float8* chunk_bounds,
-                  global const ulong* kinds, global const uint* chunks, global LargeNode* next, global uint* next_chunks,
-                  global SmallNode* small_nodes, global uint* order, uint node_count, uint small_before, uint parity,
-                  uint chunk_size) {
+                  global const float8* chunk_bounds, global const ulong* kinds, global const uint* chunks,
+                  global LargeNode* next, global uint* next_chunks, global SmallNode* small_nodes, global uint* order,
+                  uint node_count, uint small_before, uint parity, uint chunk_size) {
     const uint i = (uint)get_global_id(0);
     if (i >= node_count) return;
     const LargeNode node = nodes[i];

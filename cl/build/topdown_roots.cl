@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is before and after the levels of a top-down build, whatever its strategy: topdown_records, topdown_seed, scans of what it
-// counted, topdown_emit_roots, topdown_measure, topdown_roots; in the end topdown_sum_marks.
+// What is before and after the levels of a top-down build, whatever its strategy: topdown_records, topdown_seed, scans
+// of what it counted, topdown_emit_roots, topdown_measure, topdown_roots; in the end topdown_sum_marks.
 //
 // Macros: build/record.h.
 // compile: OWN_CENTRES=0
@@ -20,10 +20,12 @@ void topdown_records(global const Aabb* boxes, global float8* records, uint coun
     }
 }
 
-/// Counts of the trees, by kind, and their chunks. Also writes what is known of a tree: its root's parent, its unused slot.
+/// Counts of the trees, by kind, and their chunks. Also writes what is known of a tree: its root's parent, its unused
+/// slot.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_seed(global const uint* offsets, global ulong* kinds, global uint* chunks, global uint* order,
-                  global uint2* children, global uint* parents, global uint* far_ends, uint count, uint trees, uint chunk_size) {
+                  global uint2* children, global uint* parents, global uint* far_ends, uint count, uint trees,
+                  uint chunk_size) {
     const uint tree = (uint)get_global_id(0);
     if (tree >= trees) return;
     const uint first = offsets[tree], last = offsets[tree + 1] - 1, size = last - first + 1;
@@ -36,10 +38,12 @@ void topdown_seed(global const uint* offsets, global ulong* kinds, global uint* 
     if (size == 1) order[first] = first;
 }
 
-/// Writes the roots of trees as large or small nodes. `kinds` and `chunks` are inclusive scans of what topdown_seed counted.
+/// Writes the roots of trees as large or small nodes. `kinds` and `chunks` are inclusive scans of what topdown_seed
+/// counted.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void topdown_emit_roots(global const uint* offsets, global const ulong* kinds, global const uint* chunks, global LargeNode* nodes,
-                   global uint* first_chunks, global SmallNode* small_nodes, uint trees, uint chunk_size) {
+void topdown_emit_roots(global const uint* offsets, global const ulong* kinds, global const uint* chunks,
+                        global LargeNode* nodes, global uint* first_chunks, global SmallNode* small_nodes, uint trees,
+                        uint chunk_size) {
     const uint tree = (uint)get_global_id(0);
     if (tree >= trees) return;
     const uint first = offsets[tree], size = offsets[tree + 1] - first;
@@ -84,7 +88,8 @@ void topdown_roots(global LargeNode* nodes, global const float8* chunk_bounds, u
     vstore8(join_chunks(chunk_bounds, first, chunks, 1), 0, nodes[i].centres);
 }
 
-/// Sums what became of the nodes of one slice: sums[3 i] splits, then axes tried, then fallbacks. After: marks are 1 for leaves.
+/// Sums what became of the nodes of one slice: sums[3 i] splits, then axes tried, then fallbacks. After: marks are 1
+/// for leaves.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_sum_marks(global uint* marks, global uint* sums, uint count, uint slice) {
     const uint i = (uint)get_global_id(0), begin = i * slice;

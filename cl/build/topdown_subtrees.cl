@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole subtrees of a top-down build, each by one work-item, whose records stay in its cache: the same splits as those of
-// topdown_levels.cl. Macros: build/split.h.
+// Whole subtrees of a top-down build, each by one work-item, whose records stay in its cache: the same splits as those
+// of topdown_levels.cl. Macros: build/split.h.
 // compile: BINS=32 BIN_BOX=0 PRIMITIVES_PER_BIN=16u BLOCK_SIZE=4 OWN_CENTRES=0 MEASURE=surface_measure COST=overlap_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes
 // compile: BINS=16 BIN_BOX=1 PRIMITIVES_PER_BIN=1u BLOCK_SIZE=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
 #include "build/split.h"
@@ -34,15 +34,16 @@ INLINE void measure_node(const Work* w, Node* node) {
     node->centres = centres;
 }
 
-/// Moves the records into the other array, those right of the plane behind the others, in order. After: the children's bounds.
-INLINE void partition(const Work* w, const Node* node, const Grid* grid, const Bins* bins, uint bin_count, const Plane* plane,
-                 Node* children) {
+/// Moves the records into the other array, those right of the plane behind the others, in order. After: the children's
+/// bounds.
+INLINE void partition(const Work* w, const Node* node, const Grid* grid, const Bins* bins, uint bin_count,
+                      const Plane* plane, Node* children) {
     const bool other = node->flags & NODE_OTHER;
     global const float8* from = w->records[other ? 1 : 0];
     global float8* to = w->records[other ? 0 : 1];
     const int4 limit = plane_at(plane->axis, plane->bin);
     partition_records(grid, limit, from, w->centres, node->first, node->first + node->count, to, node->first,
-                 node->first + plane->left_count, &children[0].centres, &children[1].centres);
+                      node->first + plane->left_count, &children[0].centres, &children[1].centres);
     side_bounds(bins, plane->axis, plane->bin, bin_count, &children[0].bounds, &children[1].bounds);
     children[0].flags ^= NODE_OTHER;
     children[1].flags ^= NODE_OTHER;
@@ -104,15 +105,15 @@ INLINE void build_subtree(const Work* w, Node root) {
 }
 
 /// The subtrees of one slice of small nodes.
-/// Before: the records of small node i are in the array that its flags say; no others are at its positions. Its own entry in
-/// `parents` is written.
+/// Before: the records of small node i are in the array that its flags say; no others are at its positions. Its own
+/// entry in `parents` is written.
 /// After all work-items: everything below the small nodes is written, `order` at their positions too.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void topdown_subtrees(global const SmallNode* small_nodes, global float8* records, global float8* other_records,
                       global const float* centres, global const Aabb* tree_bounds, global const InfluenceRecord* areas,
                       global const uint* area_starts, global const Thresholds* thresholds, global uint* order,
-                      global uint2* children, global uint* parents, global uint* far_ends, global uint* marks, uint count,
-                      uint small_count, uint slice) {
+                      global uint2* children, global uint* parents, global uint* far_ends, global uint* marks,
+                      uint count, uint small_count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= small_count) return;
     const uint end = min(begin + slice, small_count);

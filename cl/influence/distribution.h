@@ -17,8 +17,8 @@ typedef struct Distribution {
 /// Half the surface of the box in units of the root's largest extent.
 INLINE float half_surface(float3 size) { return size.x * size.y + size.y * size.z + size.z * size.x; }
 
-/// The probability that a ray from everywhere that meets the root meets `box`, inside it: surface over surface, in [0, 1]. 1 for a root
-/// without surface.
+/// The probability that a ray from everywhere that meets the root meets `box`, inside it: surface over surface, in [0,
+/// 1]. 1 for a root without surface.
 static inline float surface_measure(const Distribution* distribution, Box box) {
     const float3 root = extent_of(distribution->root);
     const float longest = fmax(root.x, fmax(root.y, root.z));
@@ -29,7 +29,8 @@ static inline float surface_measure(const Distribution* distribution, Box box) {
     return whole > 0.0f ? fmin(half_surface(size / longest) / whole, 1.0f) : 1.0f;
 }
 
-/// Sum over the areas of share * probability, culled to what their rays can meet; `shares` becomes the sum of the shares.
+/// Sum over the areas of share * probability, culled to what their rays can meet; `shares` becomes the sum of the
+/// shares.
 static inline float shared_probability(const Distribution* distribution, Box box, float* shares) {
     float sum = 0.0f, all = 0.0f;
     for (uint i = 0; i < distribution->area_count; ++i) {
@@ -41,8 +42,8 @@ static inline float shared_probability(const Distribution* distribution, Box box
     return sum;
 }
 
-/// The probability that a ray of one of the areas meets `box`, in [0, 1]. Areas without shares count alike; without areas it
-/// is surface_measure.
+/// The probability that a ray of one of the areas meets `box`, in [0, 1]. Areas without shares count alike; without
+/// areas it is surface_measure.
 static inline float projected_measure(const Distribution* distribution, Box box) {
     if (distribution->area_count == 0) return surface_measure(distribution, box);
     float shares;

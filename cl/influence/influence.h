@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Rays and influence areas: whether a ray follows an area, and how far it is in its region.
 //
-// A ray is in the region from its origin, where area_contains, to area_exit, but for what rounding leaves its origin outside. With
-// e = 2^-24, s the sum of the magnitudes of the point less the area's origin, and t the tangent of half the field of view (0 for
-// plane areas): coordinates have errors up to 4 e s, the room to a side, z t - |x|, up to 8 e s (1 + t). It is taken as
-// 16 e s (1 + t): area_contains accepts every point of the region, and none further outside than 24 e s (1 + t) by that measure;
-// area_exit takes as much off the room ahead. Speeds, of directions whose largest component is 1, have errors up to 24 e (1 + t),
-// and are taken as 32 e (1 + t) faster. area_triangles.cl has triangles a multiple of all that around the region.
+// A ray is in the region from its origin, where area_contains, to area_exit, but for what rounding leaves its origin
+// outside. With e = 2^-24, s the sum of the magnitudes of the point less the area's origin, and t the tangent of half
+// the field of view (0 for plane areas): coordinates have errors up to 4 e s, the room to a side, z t - |x|, up to 8 e
+// s (1 + t). It is taken as 16 e s (1 + t): area_contains accepts every point of the region, and none further outside
+// than 24 e s (1 + t) by that measure; area_exit takes as much off the room ahead. Speeds, of directions whose largest
+// component is 1, have errors up to 24 e (1 + t), and are taken as 32 e (1 + t) faster. area_triangles.cl has triangles
+// a multiple of all that around the region.
 #ifndef BOXWOOD_INFLUENCE_INFLUENCE_H
 #define BOXWOOD_INFLUENCE_INFLUENCE_H
 #include "runtime/inline.h"
@@ -37,8 +38,8 @@ INLINE bool area_contains(global const InfluenceRecord* area, float3 point) {
            area->near - p.z <= rounding && p.z - area->far <= rounding;
 }
 
-/// Whether a ray runs along the area's lines, either way, but for the tolerance and rounding. From the eye of a point area all
-/// do. Directions of any length but 0.
+/// Whether a ray runs along the area's lines, either way, but for the tolerance and rounding. From the eye of a point
+/// area all do. Directions of any length but 0.
 INLINE bool is_direction_affine(global const InfluenceRecord* area, float3 origin, float3 direction) {
     float3 own = vload3(0, area->forward);
     if (area->point != 0) own = origin - vload3(0, area->origin);
@@ -52,14 +53,14 @@ INLINE bool is_direction_affine(global const InfluenceRecord* area, float3 origi
            sine * sine * ((a.x * a.x + a.y * a.y) + a.z * a.z) * ((b.x * b.x + b.y * b.y) + b.z * b.z);
 }
 
-/// Until when a ray that nears a side at `speed` is sure not to cross it. The factor, 1 - 16 e, covers what rounds relatively: room
-/// and speed (e each), two quotients (5 e each, the second area_exit's) and the product (e).
+/// Until when a ray that nears a side at `speed` is sure not to cross it. The factor, 1 - 16 e, covers what rounds
+/// relatively: room and speed (e each), two quotients (5 e each, the second area_exit's) and the product (e).
 INLINE float time_to_side(float room, float speed) {
     return speed > 0.0f ? fmax(room, 0.0f) / speed * (1.0f - 0x1p-20f) : FLT_MAX;
 }
 
-/// How far along a direction of any length, in units of it, a ray from a point of the region is in the region at least: never more
-/// than it is. 0 where it leaves at once, or has no direction.
+/// How far along a direction of any length, in units of it, a ray from a point of the region is in the region at least:
+/// never more than it is. 0 where it leaves at once, or has no direction.
 INLINE float area_exit(global const InfluenceRecord* area, float3 origin, float3 direction) {
     const float scale = largest_component(direction);
     if (!(scale > 0.0f)) return 0.0f;
@@ -71,7 +72,8 @@ INLINE float area_exit(global const InfluenceRecord* area, float3 origin, float3
     const float widths = point ? 1.0f + width : 1.0f, heights = point ? 1.0f + height : 1.0f;
     const float room_x = spread * width - rounding * widths - (point ? 0.0f : ROOM_ROUNDING * width);
     const float room_y = spread * height - rounding * heights - (point ? 0.0f : ROOM_ROUNDING * height);
-    const float speed_x = SPEED_ROUNDING * widths - growth * width, speed_y = SPEED_ROUNDING * heights - growth * height;
+    const float speed_x = SPEED_ROUNDING * widths - growth * width,
+                speed_y = SPEED_ROUNDING * heights - growth * height;
     float time = fmin(time_to_side(room_x - p.x, speed_x + v.x), time_to_side(room_x + p.x, speed_x - v.x));
     time = fmin(time, fmin(time_to_side(room_y - p.y, speed_y + v.y), time_to_side(room_y + p.y, speed_y - v.y)));
     time = fmin(time, time_to_side(area->far * (1.0f - ROOM_ROUNDING) - rounding - p.z, v.z + SPEED_ROUNDING));

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The probability that a ray of an influence area meets a box: the area of the box's projection over that of the rectangle that the
-// rays leave.
+// The probability that a ray of an influence area meets a box: the area of the box's projection over that of the
+// rectangle that the rays leave.
 //
 // A box beyond the near plane, and inside the rectangle where that matters, is the sum of its faces in sight, without
-// cancellation. With f the forward axis and e the extents, a plane area sees |f.x| e.y e.z + |f.y| e.x e.z + |f.z| e.x e.y, three
-// parallelograms. A point area sees at most three faces; a triangle with corners p, q, r at the depths a, b, c has the area
-// |det(p, q, r)| / (2 a b c) on the plane of depth 1, and for both halves of a face the determinant is the face's distance from
-// the eye along its axis times its area. So a face of the depths a, b, c, d (a opposite to d) has distance * area *
-// (a + d) / (2 a b c d).
+// cancellation. With f the forward axis and e the extents, a plane area sees |f.x| e.y e.z + |f.y| e.x e.z + |f.z| e.x
+// e.y, three parallelograms. A point area sees at most three faces; a triangle with corners p, q, r at the depths a, b,
+// c has the area |det(p, q, r)| / (2 a b c) on the plane of depth 1, and for both halves of a face the determinant is
+// the face's distance from the eye along its axis times its area. So a face of the depths a, b, c, d (a opposite to d)
+// has distance * area * (a + d) / (2 a b c d).
 //
-// Else the outline, by hull_table.h or, for a box across the near plane, as the hull of what lies beyond it, is cut to the
-// rectangle: at each x the outline's two heights are clamped to the rectangle, and what is between them is integrated.
+// Else the outline, by hull_table.h or, for a box across the near plane, as the hull of what lies beyond it, is cut to
+// the rectangle: at each x the outline's two heights are clamped to the rectangle, and what is between them is
+// integrated.
 //
-// Accuracy, e = 2^-24, for what the record's floats say and a box of float corners, R the largest distance from the origin /
-// depth of its corners (0 for plane areas): relative (20 R + 24) e for the sum of faces. An outline's corners, at u in units of
-// the rectangle's half extents, are off by at most d = e (8 D / H + (8 R + 4) |u|), D the corners' largest distance from the
-// origin and H the smaller half extent times the least depth (times 1 for plane areas), and then, culled, the probability by
-// 3 d + 20 e, where a depth is off by at most 6 e D: whether a box just before the rectangle counts is open.
-// Nothing overflows or is NaN from 2^-60 to 2^60: probabilities stop at LARGEST_PROBABILITY, and quotients above 2^42 count as 2^42.
+// Accuracy, e = 2^-24, for what the record's floats say and a box of float corners, R the largest distance from the
+// origin / depth of its corners (0 for plane areas): relative (20 R + 24) e for the sum of faces. An outline's corners,
+// at u in units of the rectangle's half extents, are off by at most d = e (8 D / H + (8 R + 4) |u|), D the corners'
+// largest distance from the origin and H the smaller half extent times the least depth (times 1 for plane areas), and
+// then, culled, the probability by 3 d + 20 e, where a depth is off by at most 6 e D: whether a box just before the
+// rectangle counts is open. Nothing overflows or is NaN from 2^-60 to 2^60: probabilities stop at LARGEST_PROBABILITY,
+// and quotients above 2^42 count as 2^42.
 #ifndef BOXWOOD_INFLUENCE_PROJECTED_AREA_H
 #define BOXWOOD_INFLUENCE_PROJECTED_AREA_H
 #include "bounds/box.h"
@@ -28,7 +30,9 @@
 #define LARGEST_PROBABILITY 0x1p60f
 #define LARGEST_COORDINATE 0x1p60f
 
-INLINE float3 area_right(const InfluenceRecord* area) { return (float3)(area->right[0], area->right[1], area->right[2]); }
+INLINE float3 area_right(const InfluenceRecord* area) {
+    return (float3)(area->right[0], area->right[1], area->right[2]);
+}
 INLINE float3 area_up(const InfluenceRecord* area) { return (float3)(area->up[0], area->up[1], area->up[2]); }
 INLINE float3 area_forward(const InfluenceRecord* area) {
     return (float3)(area->forward[0], area->forward[1], area->forward[2]);
@@ -48,8 +52,8 @@ INLINE float3 area_direction(const InfluenceRecord* area, float3 point) {
     return scaled / sqrt(dot_float3(scaled, scaled));
 }
 
-/// Coordinates along `axis` of the eight corners, which lie at `low` and `high` from the origin. Rounding keeps order along
-/// each edge, so a plane across cuts them as it cuts a box: at most ten corners.
+/// Coordinates along `axis` of the eight corners, which lie at `low` and `high` from the origin. Rounding keeps order
+/// along each edge, so a plane across cuts them as it cuts a box: at most ten corners.
 INLINE float8 corners_along(float3 axis, float3 low, float3 high) {
     const float3 a = axis * low, b = axis * high;
     return ((float8)(a.x, b.x, a.x, b.x, a.x, b.x, a.x, b.x) + (float8)(a.y, a.y, b.y, b.y, a.y, a.y, b.y, b.y)) +
@@ -145,7 +149,8 @@ static inline float table_probability(uint faces, float8 u, float8 v, float2 cen
 /// A point of the rectangle's plane in units of its half extents.
 INLINE float2 project(const InfluenceRecord* area, float x, float y, float depth) {
     const float unit = area->point != 0 ? depth : 1.0f;
-    return clamp((float2)(x / unit, y / unit) / (float2)(area->half_width, area->half_height), -LARGEST_COORDINATE, LARGEST_COORDINATE);
+    return clamp((float2)(x / unit, y / unit) / (float2)(area->half_width, area->half_height), -LARGEST_COORDINATE,
+                 LARGEST_COORDINATE);
 }
 
 /// The corners of what of the box lies at the depth `near` or beyond, projected; their number.
@@ -166,7 +171,8 @@ static inline uint points_beyond(const InfluenceRecord* area, float8 x, float8 y
             const uint a = closer ? other : i, b = closer ? i : other;
             const float fraction = (near - zs[a]) / (zs[b] - zs[a]);
             if (count < OUTLINE_CORNERS)
-                points[count++] = project(area, xs[a] + fraction * (xs[b] - xs[a]), ys[a] + fraction * (ys[b] - ys[a]), near);
+                points[count++] =
+                    project(area, xs[a] + fraction * (xs[b] - xs[a]), ys[a] + fraction * (ys[b] - ys[a]), near);
         }
     }
     return count;
@@ -174,7 +180,8 @@ static inline uint points_beyond(const InfluenceRecord* area, float8 x, float8 y
 
 INLINE float turn_of(float2 a, float2 b, float2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// The hull of 1 to OUTLINE_CORNERS points by monotone chains, which it sorts; anticlockwise, and its number of corners.
+/// The hull of 1 to OUTLINE_CORNERS points by monotone chains, which it sorts; anticlockwise, and its number of
+/// corners.
 static inline uint hull_of_points(float2* points, uint count, float2* outline) {
     for (uint i = 1; i < count; ++i) {
         const float2 p = points[i];
@@ -209,21 +216,23 @@ static inline float polygon_probability(const float2* outline, uint count, bool 
     const float2 centre = 0.5f * (max(low, -limit) + min(high, limit));
     float sum = 0.0f;
     for (uint i = 0; i < count; ++i)
-        sum += edge_integral(outline[i] - centre, outline[i + 1 < count ? i + 1 : 0] - centre, -limit - centre, limit - centre);
+        sum += edge_integral(outline[i] - centre, outline[i + 1 < count ? i + 1 : 0] - centre, -limit - centre,
+                             limit - centre);
     return 0.25f * fabs(sum);
 }
 
 /// The probability of a box across the near plane.
-static inline float near_plane_probability(const InfluenceRecord* area, float3 low, float3 high, float8 z, bool culled) {
+static inline float near_plane_probability(const InfluenceRecord* area, float3 low, float3 high, float8 z,
+                                           bool culled) {
     float2 points[OUTLINE_CORNERS], outline[OUTLINE_CORNERS];
-    const uint count = points_beyond(area, corners_along(area_right(area), low, high), corners_along(area_up(area), low, high), z,
-                                     points);
+    const uint count = points_beyond(area, corners_along(area_right(area), low, high),
+                                     corners_along(area_up(area), low, high), z, points);
     return polygon_probability(outline, hull_of_points(points, count, outline), culled);
 }
 
-/// The probability that a ray of the area meets a box: the area of the box's projection along the area's rays over that of the
-/// rectangle that they leave. What lies before the rectangle does not count, nor, culled, what projects beside it. In [0, 1]
-/// culled, else in [0, LARGEST_PROBABILITY]. An empty box has none.
+/// The probability that a ray of the area meets a box: the area of the box's projection along the area's rays over that
+/// of the rectangle that they leave. What lies before the rectangle does not count, nor, culled, what projects beside
+/// it. In [0, 1] culled, else in [0, LARGEST_PROBABILITY]. An empty box has none.
 static inline float area_probability(const InfluenceRecord* area, Box box, bool culled) {
     const float3 low = box.a.xyz - area_origin(area), high = (float3)(box.a.w, box.b) - area_origin(area);
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 0.0f;

@@ -2,9 +2,9 @@
 // How to cover each subtree by wide nodes at least cost: the dynamic program of Ylitie, Karras and Laine ("Efficient
 // incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1), bottom-up.
 //
-// costs[8 n + i - 1], i = 1..7: least cost of the subtree of inner node n, no leaf, when it may hang from its wide parent
-// as up to i boxes ([8 n + 7] repeats i = 7). All are expected costs per ray that hits n's box, so they are free of scale and
-// neither overflow nor vanish.
+// costs[8 n + i - 1], i = 1..7: least cost of the subtree of inner node n, no leaf, when it may hang from its wide
+// parent as up to i boxes ([8 n + 7] repeats i = 7). All are expected costs per ray that hits n's box, so they are free
+// of scale and neither overflow nor vanish.
 //
 // A subtree of up to LEAF_SIZE primitives is one leaf: its test costs the same however many of its slots are filled.
 //
@@ -36,12 +36,10 @@ inline void visit_leaf(const Costs* c, uint position, uint count) {
     (void)count;
 }
 
-inline float half_area(float3 extent) {
-    return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
-}
+inline float half_area(float3 extent) { return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x; }
 
-/// Probability that a ray that hits `parent` hits `a` and `b`, by surface area. Extents are first divided by the parent's
-/// largest, so that no product leaves the range of floats. A parent without area counts as always hit.
+/// Probability that a ray that hits `parent` hits `a` and `b`, by surface area. Extents are first divided by the
+/// parent's largest, so that no product leaves the range of floats. A parent without area counts as always hit.
 inline float2 hit_probabilities(Box parent, Box a, Box b) {
     const float3 extent = extent_of(parent);
     const float unit = max(max(extent.x, extent.y), extent.z);
@@ -50,9 +48,7 @@ inline float2 hit_probabilities(Box parent, Box a, Box b) {
     return (float2)(half_area(extent_of(a) / unit), half_area(extent_of(b) / unit)) / whole;
 }
 
-inline bool is_leaf(const Costs* c, uint node, uint count) {
-    return node_size(node, c->far_ends, count) <= LEAF_SIZE;
-}
+inline bool is_leaf(const Costs* c, uint node, uint count) { return node_size(node, c->far_ends, count) <= LEAF_SIZE; }
 
 /// A child's costs, weighted by the probability that a ray that hits the parent hits it.
 inline float8 child_costs(const Costs* c, uint child, float weight, uint count) {
@@ -75,7 +71,7 @@ inline void visit_node(const Costs* c, uint node, uint2 children, uint count) {
         return;
     }
     const float2 weight = hit_probabilities(load_box(c->volumes + node), load_box(c->volumes + children.x),
-                                      load_box(c->volumes + children.y));
+                                            load_box(c->volumes + children.y));
     const float8 a = child_costs(c, children.x, weight.x, count);
     const float8 b = child_costs(c, children.y, weight.y, count);
     const float none = INFINITY;

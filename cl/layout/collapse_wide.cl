@@ -20,8 +20,8 @@
 #error "define TRIANGLE_LEAVES and NAMED"
 #endif
 
-/// True when `node` as one box is a leaf. The binary node count is below 2^30, so node indices (below 2 count) leave the
-/// mark BOXWOOD_LEAF free.
+/// True when `node` as one box is a leaf. The binary node count is below 2^30, so node indices (below 2 count) leave
+/// the mark BOXWOOD_LEAF free.
 inline bool is_leaf(global const uint* plans, uint node, uint count) {
     return node >= count || (plans[node] & PLAN_LEAF) != 0;
 }
@@ -69,8 +69,9 @@ void root_sources(global const uint* offsets, global uint* sources, uint trees, 
     sources[tree] = single ? count + offsets[tree] : offsets[tree];
 }
 
-/// For each wide node of one level: wide_children[8 w ..] = its children as binary nodes, leaves marked by BOXWOOD_LEAF;
-/// counts[w] = how many inner children, and leaves in the upper half; the rest of wide_children is BOXWOOD_NONE.
+/// For each wide node of one level: wide_children[8 w ..] = its children as binary nodes, leaves marked by
+/// BOXWOOD_LEAF; counts[w] = how many inner children, and leaves in the upper half; the rest of wide_children is
+/// BOXWOOD_NONE.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void choose_children(global const uint2* children, global const uint* plans, global const uint* sources,
                      global uint* wide_children, global ulong* counts, uint count, uint level_size, uint slice) {
@@ -99,7 +100,7 @@ void choose_children(global const uint2* children, global const uint* plans, glo
 /// exclusive scan of the counts.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void partition_children(global const uint* wide_children, global const ulong* starts, global uint* inner_sources,
-                   global uint* leaf_sources, uint level_size, uint slice) {
+                        global uint* leaf_sources, uint level_size, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, level_size);
     if (begin >= end) return;
@@ -108,8 +109,10 @@ void partition_children(global const uint* wide_children, global const ulong* st
     for (uint i = 8 * begin; i < 8 * end; ++i) {
         const uint child = wide_children[i];
         if (child == BOXWOOD_NONE) continue;
-        if (child & BOXWOOD_LEAF) leaf_sources[leaf++] = child & ~BOXWOOD_LEAF;
-        else inner_sources[inner++] = child;
+        if (child & BOXWOOD_LEAF)
+            leaf_sources[leaf++] = child & ~BOXWOOD_LEAF;
+        else
+            inner_sources[inner++] = child;
     }
 }
 
@@ -135,9 +138,12 @@ void write_nodes(global const Aabb* volumes, global const uint* order, global co
                 ++found;
                 low = vload3(0, volumes[source].min);
                 high = vload3(0, volumes[source].max);
-                if (!(child & BOXWOOD_LEAF)) reference = inner++;
-                else if (TRIANGLE_LEAVES) reference = BOXWOOD_LEAF | leaf++;
-                else reference = BOXWOOD_LEAF | order[source - count];
+                if (!(child & BOXWOOD_LEAF))
+                    reference = inner++;
+                else if (TRIANGLE_LEAVES)
+                    reference = BOXWOOD_LEAF | leaf++;
+                else
+                    reference = BOXWOOD_LEAF | order[source - count];
             }
             node->min_x[i] = low.x;
             node->max_x[i] = high.x;
@@ -194,10 +200,10 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
     const float3 zero = (float3)(0.0f);
     float3 a0 = zero, a1 = zero, a2 = zero, a3 = zero, b0 = zero, b1 = zero, b2 = zero, b3 = zero, c0 = zero, c1 = zero,
            c2 = zero, c3 = zero;
-#define LOAD_TRIANGLE(i)                                                                                              \
-    a##i = corner(positions, triangles, p##i, 0);                                                                     \
-    b##i = corner(positions, triangles, p##i, 1);                                                                     \
-    c##i = corner(positions, triangles, p##i, 2);                                                                     \
+#define LOAD_TRIANGLE(i)                          \
+    a##i = corner(positions, triangles, p##i, 0); \
+    b##i = corner(positions, triangles, p##i, 1); \
+    c##i = corner(positions, triangles, p##i, 2); \
     mark_collinear(&a##i, &b##i, &c##i)
     LOAD_TRIANGLE(0);
     if (size > 1) {
@@ -222,8 +228,8 @@ inline void write_block(global Triangle4* block, uint2 range, global const uint*
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void write_blocks(global const uint* leaf_sources, global const uint* far_ends, global const uint* order,
                   global const uint* offsets, global const uint* names, global const float* positions,
-                  global const uint* triangles, global Triangle4* blocks, uint count, uint trees, uint first_leaf, uint leaves,
-                  uint slice) {
+                  global const uint* triangles, global Triangle4* blocks, uint count, uint trees, uint first_leaf,
+                  uint leaves, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     const uint end = min(begin + slice, leaves);
     for (uint i = begin; i < end; ++i) {

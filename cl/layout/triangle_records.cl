@@ -13,12 +13,12 @@
 #error "define NAMED"
 #endif
 
-/// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh or by names[], for the
-/// positions of one slice.
+/// records[i] = the triangle at sorted position i, its primitive counted from the start of its mesh or by names[], for
+/// the positions of one slice.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void triangle_records(global const uint* order, global const uint* offsets, global const uint* names,
-                      global const float* positions, global const uint* triangles, global Triangle* records, uint trees, uint count,
-                      uint slice) {
+                      global const float* positions, global const uint* triangles, global Triangle* records, uint trees,
+                      uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const uint end = min(begin + slice, count);

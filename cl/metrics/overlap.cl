@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // End-point overlap (Aila, Karras and Laine 2013): how much of each triangle lies inside nodes that it is not below.
 //
-// A triangle is clipped in its own plane: a point of it is v0 + s (v1 - v0) + t (v2 - v0), so a box is six half-planes of (s, t) and
-// the clipped fraction of the area is that of a polygon in (s, t), whatever the frame of the box.
+// A triangle is clipped in its own plane: a point of it is v0 + s (v1 - v0) + t (v2 - v0), so a box is six half-planes
+// of (s, t) and the clipped fraction of the area is that of a polygon in (s, t), whatever the frame of the box.
 // ORIENTED=1: nodes have oriented boxes unless they keep their AABB; 0: AABBs.
 // compile: ORIENTED=0
 // compile: ORIENTED=1
@@ -45,7 +45,8 @@ INLINE void obb_slab(global const Obb* box, global const Triangle* triangle, int
 }
 #endif
 
-/// Cuts the polygon of `corners` points (s, t) to where plane . (1 - s - t, s, t) >= 0. Returns the new number of points.
+/// Cuts the polygon of `corners` points (s, t) to where plane . (1 - s - t, s, t) >= 0. Returns the new number of
+/// points.
 INLINE int clip(float2* polygon, int corners, float3 plane) {
     float2 kept[MOST_CORNERS];
     int count = 0;
@@ -54,7 +55,8 @@ INLINE int clip(float2* polygon, int corners, float3 plane) {
         const float at_a = dot_float3(plane, (float3)(1.0f - a.x - a.y, a));
         const float at_b = dot_float3(plane, (float3)(1.0f - b.x - b.y, b));
         if (at_a >= 0.0f && count < MOST_CORNERS) kept[count++] = a;
-        if ((at_a >= 0.0f) != (at_b >= 0.0f) && count < MOST_CORNERS) kept[count++] = a + at_a / (at_a - at_b) * (b - a);
+        if ((at_a >= 0.0f) != (at_b >= 0.0f) && count < MOST_CORNERS)
+            kept[count++] = a + at_a / (at_a - at_b) * (b - a);
     }
     for (int i = 0; i < count; ++i) polygon[i] = kept[i];
     return count;
@@ -90,7 +92,7 @@ INLINE float fraction_inside(const Slab* slabs) {
 }
 
 INLINE float fraction_inside_node(global const Aabb* volumes, global const Obb* boxes, uint node,
-                               global const Triangle* triangle) {
+                                  global const Triangle* triangle) {
     Slab slabs[3];
 #if ORIENTED
     if (boxes[node].aligned == 0) {
@@ -114,14 +116,15 @@ inline uint after(uint node, uint root, global const uint2* children, global con
     return BOXWOOD_NONE;
 }
 
-/// Sample i of `samples` is the triangle at sorted position floor(i count / samples). fractions[i] = sum, over the nodes that
-/// are not above it and whose ancestors all meet it, of the fraction of its area inside them; areas[i] = its area in units of
-/// unit^2; visits[i] = nodes that were looked at, each at most once. The walk goes by parents and needs no stack.
+/// Sample i of `samples` is the triangle at sorted position floor(i count / samples). fractions[i] = sum, over the
+/// nodes that are not above it and whose ancestors all meet it, of the fraction of its area inside them; areas[i] = its
+/// area in units of unit^2; visits[i] = nodes that were looked at, each at most once. The walk goes by parents and
+/// needs no stack.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void end_point_overlap(global const uint2* children, global const uint* parents, global const uint* far_ends,
                        global const uint* offsets, global const Aabb* volumes, global const Obb* boxes,
-                       global const Triangle* triangles, global float* fractions, global float* areas, global uint* visits,
-                       float unit, uint trees, uint count, uint samples) {
+                       global const Triangle* triangles, global float* fractions, global float* areas,
+                       global uint* visits, float unit, uint trees, uint count, uint samples) {
     const uint sample = (uint)get_global_id(0);
     if (sample >= samples) return;
     const uint position = (uint)((ulong)sample * count / samples);

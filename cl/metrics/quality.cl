@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Surface area and volume of every node, for the metrics of a tree.
 //
-// Both are in units of `unit`, a power of two near the size of the scene, so that neither overflows or vanishes. Unused slots
-// (empty boxes) count nothing; they would otherwise poison every sum.
+// Both are in units of `unit`, a power of two near the size of the scene, so that neither overflows or vanishes. Unused
+// slots (empty boxes) count nothing; they would otherwise poison every sum.
 // compile:
 #include "runtime/products.h"
 #include "shared/aabb.h"
@@ -34,8 +34,8 @@ inline float unit_axis(global const float* row, float3* axis) {
     return largest * length_over_largest;
 }
 
-/// A parallelepiped of the distances 2 d_k between faces with unit normals n_k has the volume 8 d0 d1 d2 / |det n| and the
-/// faces 4 d_i d_j / |det n|. Returns false where rounding leaves no determinant.
+/// A parallelepiped of the distances 2 d_k between faces with unit normals n_k has the volume 8 d0 d1 d2 / |det n| and
+/// the faces 4 d_i d_j / |det n|. Returns false where rounding leaves no determinant.
 inline bool measure_obb(global const Obb* box, float unit, Measures* result) {
     float3 normals[3];
     float d[3];
@@ -59,8 +59,8 @@ void aabb_measures(global const Aabb* volumes, global float* areas, global float
     box_volumes[i] = measures.volume;
 }
 
-/// The same with oriented boxes; a node that keeps its AABB is measured by it. fitted[i] = 1 for a node that does not, else
-/// 0.
+/// The same with oriented boxes; a node that keeps its AABB is measured by it. fitted[i] = 1 for a node that does not,
+/// else 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void obb_measures(global const Aabb* volumes, global const Obb* boxes, global float* areas, global float* box_volumes,
                   global uint* fitted, float unit, uint first, uint count) {

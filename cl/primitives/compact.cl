@@ -14,9 +14,8 @@
 /// @pre  `flags` holds `count` > 0 entries; `slices` slices of `length` cover them.
 /// @post kept[slice] is the number of flags in the slice that are not 0.
 /// Each entry has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact_count(global const uint* flags,
-                                                                                  global uint* kept, uint count,
-                                                                                  uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void compact_count(global const uint* flags, global uint* kept, uint count, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint i = slice * length;
@@ -25,7 +24,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact_coun
     for (; last - i >= 16; i += 16) lanes += vload16(0, flags + i) != 0u;
     const int8 eighth = lanes.lo + lanes.hi;
     const int4 quarter = eighth.lo + eighth.hi;
-    uint sum = (uint)-(quarter.x + quarter.y + quarter.z + quarter.w);
+    uint sum = (uint) - (quarter.x + quarter.y + quarter.z + quarter.w);
     for (; i < last; ++i) sum += flags[i] != 0u;
     kept[slice] = sum;
 }
@@ -36,10 +35,10 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact_coun
 /// A slice writes out[before .. before + kept - 1] only. Inside that range it may write an element that is not kept,
 /// which the next kept one of the same slice overwrites; once all are kept it stops. So there is no branch on the
 /// flags, one writer per element, and no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact(
-    global const SCALAR* restrict in, global const uint* restrict flags, global const uint* restrict before,
-    global const uint* restrict kept, global SCALAR* restrict out, global uint* restrict total, uint length,
-    uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void compact(global const SCALAR* restrict in, global const uint* restrict flags, global const uint* restrict before,
+             global const uint* restrict kept, global SCALAR* restrict out, global uint* restrict total, uint length,
+             uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint place = before[slice];
@@ -49,7 +48,7 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void compact(
     // With 8 kept elements to come there are as many to read, and 8 in a row need one test of the end.
     for (; end - place >= 8; i += 8) {
         const int8 steps = vload8(0, flags + i) != 0u; // -1 where an element is kept
-#define MOVE(k)                                        \
+#define MOVE(k)                                         \
     STORE_ELEMENT(LOAD_ELEMENT(in, i + k), out, place); \
     place -= steps.s##k
         MOVE(0);

@@ -14,10 +14,9 @@
 ///       No two buffers overlap. `slices` slices of `length` elements cover `count`.
 /// @post out[i] = in[indices[i]] for every i < count.
 ///       The last slice may be short. Every element of `out` has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void gather(global const SCALAR* restrict in,
-                                                                        global const uint* restrict indices,
-                                                                        global SCALAR* restrict out, uint count,
-                                                                        uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void gather(global const SCALAR* restrict in, global const uint* restrict indices, global SCALAR* restrict out,
+            uint count, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const uint first = slice * length;

@@ -24,10 +24,9 @@
 ///       mask < DIGITS. `counts` holds (mask + 1) * slices entries.
 /// @post counts[digit * slices + slice] is the number of keys in the slice with that digit.
 /// Each entry has one writer: no barrier. The counters are private, so no atomics either.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void radix_count(global const KEY* keys,
-                                                                                global uint* counts, uint count,
-                                                                                uint shift, uint mask, uint length,
-                                                                                uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void radix_count(global const KEY* keys, global uint* counts, uint count, uint shift, uint mask, uint length,
+                 uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint counters[DIGITS];
@@ -41,10 +40,10 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void radix_count(
 /// @pre  `starts` is the exclusive scan of what radix_count wrote with the same arguments. No two buffers overlap.
 /// @post `out_keys` and `out_values` hold the pairs, stably sorted by the digit.
 /// Slices write to disjoint places, by the scan: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void radix_move(
-    global const KEY* restrict keys, global const uint* restrict values, global const uint* restrict starts,
-    global KEY* restrict out_keys, global uint* restrict out_values, uint count, uint shift, uint mask, uint length,
-    uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void radix_move(global const KEY* restrict keys, global const uint* restrict values, global const uint* restrict starts,
+                global KEY* restrict out_keys, global uint* restrict out_values, uint count, uint shift, uint mask,
+                uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint places[DIGITS];

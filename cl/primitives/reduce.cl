@@ -18,8 +18,8 @@
 ///       its one tile.
 /// Work-items share nothing, so there is no barrier and no local memory. Tiles, and so results, do not depend on how
 /// the tiles are dealt to work-items.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void reduce(global const SCALAR* in, global SCALAR* out,
-                                                                           uint count, uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void reduce(global const SCALAR* in, global SCALAR* out, uint count, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint first = slice * length;

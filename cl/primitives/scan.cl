@@ -2,9 +2,9 @@
 // Scan of every tile of TILE elements, started from what comes before the tile (which reduce.cl and this kernel, one
 // level up, have computed).
 //
-// Sums of floats that are not negative never fall. Rounding is monotonic, so within a tile it is enough that every sum is an
-// earlier one, plus a sum that never falls either. What is before the next tile is added up in another order: no sum of
-// a tile without negative elements goes above it.
+// Sums of floats that are not negative never fall. Rounding is monotonic, so within a tile it is enough that every sum
+// is an earlier one, plus a sum that never falls either. What is before the next tile is added up in another order: no
+// sum of a tile without negative elements goes above it.
 //
 // GROUP_SIZE                                 work-items per group, 1 or more
 // SCALAR, COMPONENTS, OP_SUM/OP_MIN/OP_MAX   as in primitives/operator.h, COMPONENTS 1 or 4
@@ -40,15 +40,13 @@ static inline Scalar16 halves4(Scalar16 v) {
 static inline Scalar16 halves8(Scalar16 v) { return (Scalar16)((JOIN(SCALAR, 8))NEUTRAL, v.s77777777); }
 
 /// The vector moved up by one lane, a neutral element moved in.
-static inline Scalar16 up1(Scalar16 v) {
-    return (Scalar16)(NEUTRAL, v.s01234567, v.s89ab, v.scd, v.se);
-}
+static inline Scalar16 up1(Scalar16 v) { return (Scalar16)(NEUTRAL, v.s01234567, v.s89ab, v.scd, v.se); }
 
 /// Elements per step.
 #define STEP 16u
 
-/// Scans 16 elements after `carry` and takes them into `carry`. By halves (Sklansky 1960), not by the shifts of Kogge and
-/// Stone, which add up each lane's sum in an order of its own, so that floats may fall.
+/// Scans 16 elements after `carry` and takes them into `carry`. By halves (Sklansky 1960), not by the shifts of Kogge
+/// and Stone, which add up each lane's sum in an order of its own, so that floats may fall.
 static inline Scalar16 scan_step(Scalar16 v, Element* carry) {
     v = combine16(halves1(v), v);
     v = combine16(halves2(v), v);
@@ -80,8 +78,8 @@ static inline Scalar16 scan_step(Scalar16 v, Element* carry) {
 
 static inline int16 below_zero(Scalar16 v) { return v < 0.0f; }
 
-/// Lowers the sums of a whole tile, which begins at element `first` of `out`, to `next`, what is before the next tile, in
-/// the components that have no lane in `negative`. They do not fall, so those to be lowered are the last ones.
+/// Lowers the sums of a whole tile, which begins at element `first` of `out`, to `next`, what is before the next tile,
+/// in the components that have no lane in `negative`. They do not fall, so those to be lowered are the last ones.
 static inline void limit_sums(global SCALAR* out, Element next, int16 negative, uint first) {
 #if COMPONENTS == 1
     if (any(negative)) return;
@@ -117,14 +115,14 @@ static inline void scan_rest(global const SCALAR* in, global SCALAR* out, uint f
     for (uint k = 0; k < scalars; ++k) out[base + k] = lanes[k];
 }
 
-/// @pre  `in` and `out` hold `count` > 0 elements and are the same buffer or do not overlap. before[b] is the fold of all
-///       tiles before b, and sums of floats there do not fall unless a tile's sum is negative; it is not read for tile 0.
-///       Slices as in reduce.cl.
+/// @pre  `in` and `out` hold `count` > 0 elements and are the same buffer or do not overlap. before[b] is the fold of
+///       all tiles before b, and sums of floats there do not fall unless a tile's sum is negative; it is not read for
+///       tile 0. Slices as in reduce.cl.
 /// @post `out` is the scan of `in`.
 /// A work-item reads each element before it writes it and shares none with others: no barrier, and in place is safe.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void scan(global const SCALAR* in, global SCALAR* out,
-                                                                         global const SCALAR* before, uint count,
-                                                                         uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void scan(global const SCALAR* in, global SCALAR* out, global const SCALAR* before, uint count, uint length,
+          uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint first = slice * length;

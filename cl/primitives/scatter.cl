@@ -15,10 +15,9 @@
 /// @post out[indices[i]] = in[i] for every i < count.
 ///       Elements of `out` that no index names keep their value. Indices are distinct, so every element has at most one
 ///       writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void scatter(global const SCALAR* restrict in,
-                                                                        global const uint* restrict indices,
-                                                                        global SCALAR* restrict out, uint count,
-                                                                        uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void scatter(global const SCALAR* restrict in, global const uint* restrict indices, global SCALAR* restrict out,
+             uint count, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const uint first = slice * length;

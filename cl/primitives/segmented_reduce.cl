@@ -24,9 +24,8 @@
 /// @pre  `offsets` has segments + 1 entries. Slices as in reduce.cl, over segments.
 /// @post out[s] is the neutral element for every segment s without elements; other segments are not touched.
 /// Every segment has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_empty(global const uint* offsets,
-                                                                                    global SCALAR* out, uint segments,
-                                                                                    uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void segmented_empty(global const uint* offsets, global SCALAR* out, uint segments, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const uint first = slice * length;
@@ -43,9 +42,10 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_em
 ///       that begins in b and ends in a later tile (BOXWOOD_NONE if there is none) and tail[b] the fold of its
 ///       elements in b. The last entry of `spans` is the number of tiles.
 /// A segment has one tile in which it begins, so every entry of every output has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_reduce(
-    global const SCALAR* in, global const uint* offsets, global SCALAR* out, global SCALAR* head, global SCALAR* tail,
-    global uint* tail_segment, global uint* spans, uint count, uint segments, uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void segmented_reduce(global const SCALAR* in, global const uint* offsets, global SCALAR* out, global SCALAR* head,
+                      global SCALAR* tail, global uint* tail_segment, global uint* spans, uint count, uint segments,
+                      uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     uint begin = slice * length;
@@ -84,9 +84,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_re
 /// @pre  reduced[b] is the fold of head[spans[b]] .. head[spans[b + 1] - 1]. Slices cover `tiles` tiles.
 /// @post out[s] is done for every segment s that reaches over more than one tile.
 /// A segment begins in one tile, so it has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void segmented_finish(
-    global const SCALAR* tail, global const SCALAR* reduced, global const uint* tail_segment, global SCALAR* out,
-    uint tiles, uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void segmented_finish(global const SCALAR* tail, global const SCALAR* reduced, global const uint* tail_segment,
+                      global SCALAR* out, uint tiles, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const uint first = slice * length;

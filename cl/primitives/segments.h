@@ -3,7 +3,8 @@
 #ifndef BOXWOOD_PRIMITIVES_SEGMENTS_H
 #define BOXWOOD_PRIMITIVES_SEGMENTS_H
 
-/// The last segment that starts at or before element `i`. `starts` holds `segments` > 0 ascending entries, the first at most i.
+/// The last segment that starts at or before element `i`. `starts` holds `segments` > 0 ascending entries, the first at
+/// most i.
 static inline uint segment_of(global const uint* starts, uint segments, uint i) {
     uint low = 0, high = segments;
     while (high - low > 1) {
@@ -16,8 +17,8 @@ static inline uint segment_of(global const uint* starts, uint segments, uint i) 
     return low;
 }
 
-/// The first segment that ends after element `i`, `segments` if there is none. `offsets` holds segments + 1 ascending entries,
-/// which may begin after i.
+/// The first segment that ends after element `i`, `segments` if there is none. `offsets` holds segments + 1 ascending
+/// entries, which may begin after i.
 static inline uint segment_ending_after(global const uint* offsets, uint segments, uint i) {
     uint low = 0, high = segments;
     while (low < high) {

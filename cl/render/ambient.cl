@@ -3,11 +3,12 @@
 //
 //     L = albedo (ambient occlusion + direct shadow + L')
 //
-// with the Lambert reflection of one punctual light, of an ambient light that depends on the normal alone, and of what the path's
-// next surface sends, all opaque. The ray to that surface, drawn by the cosine, also finds the occlusion: 1 - e^-t, t being its length
-// in units of a distance, so that a ray which meets nothing is not occluded. (The dissertation's listing takes the occlusion of the
-// ray before, and adds the ambient light once more where the ray meets nothing; its formula, followed here, does not.)
-// Macros: render/scene_arrays.h, render/texture.h when TEXTURES is 1, render/environment.h, render/sampler.h, and
+// with the Lambert reflection of one punctual light, of an ambient light that depends on the normal alone, and of what
+// the path's next surface sends, all opaque. The ray to that surface, drawn by the cosine, also finds the occlusion: 1
+// - e^-t, t being its length in units of a distance, so that a ray which meets nothing is not occluded. (The
+// dissertation's listing takes the occlusion of the ray before, and adds the ambient light once more where the ray
+// meets nothing; its formula, followed here, does not.) Macros: render/scene_arrays.h, render/texture.h when TEXTURES
+// is 1, render/environment.h, render/sampler.h, and
 //
 // LIGHTS      1: there are punctual lights.
 // GROUP_SIZE  work-items per work-group.
@@ -30,12 +31,18 @@
 // Dimensions of the sampler for each bounce.
 #define AMBIENT_DIMENSIONS 2u
 
-/// Radiance of the ambient light for normals: irradiance over pi, from spherical harmonics up to the second degree, 9 times
-/// R, G, B (Ramamoorthi and Hanrahan 2001), their constants multiplied in.
+/// Radiance of the ambient light for normals: irradiance over pi, from spherical harmonics up to the second degree, 9
+/// times R, G, B (Ramamoorthi and Hanrahan 2001), their constants multiplied in.
 INLINE void ambient_light(global const float* coefficients, const Vector* n, Vector* light) {
-    const real basis[9] = {(real)(1.0f), n->y,        n->z,
-                           n->x,         n->x * n->y, n->y * n->z,
-                           3.0f * n->z * n->z - 1.0f, n->x * n->z, n->x * n->x - n->y * n->y};
+    const real basis[9] = {(real)(1.0f),
+                           n->y,
+                           n->z,
+                           n->x,
+                           n->x * n->y,
+                           n->y * n->z,
+                           3.0f * n->z * n->z - 1.0f,
+                           n->x * n->z,
+                           n->x * n->x - n->y * n->y};
     const real zero = 0.0f;
     Vector sum = {zero, zero, zero}, coefficient;
     for (uint k = 0; k < 9; ++k) {
@@ -62,9 +69,10 @@ INLINE void cosine_rays(const Vertex* vertex, const Sampler* sampler, uint dimen
     *rays = r;
 }
 
-/// The vertices where rays along `direction`, `first` those of the camera, met surfaces. Returns where those have an area.
-INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction, const Hits* hits,
-                          uint samples, bool first, Vertex* vertex) {
+/// The vertices where rays along `direction`, `first` those of the camera, met surfaces. Returns where those have an
+/// area.
+INLINE mask find_vertices(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction,
+                          const Hits* hits, uint samples, bool first, Vertex* vertex) {
     Beam beam;
 #if TEXTURES
     // A diffuse ray stands for one of so many parts of the hemisphere.
@@ -119,8 +127,8 @@ typedef struct AmbientSettings {
 } AmbientSettings;
 
 /// The bounces of paths, `index` within the batch, whose rays along `direction` met `hits`; `throughput` is given.
-INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, const AmbientSettings* settings, const uint* index,
-                        const Vector* direction, const Hits* hits, Bounce* result) {
+INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, const AmbientSettings* settings,
+                        const uint* index, const Vector* direction, const Hits* hits, Bounce* result) {
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)};
     result->seen = result->light = result->around = dark;
     null_rays(&result->shadow_rays);
@@ -129,8 +137,9 @@ INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, con
     if (ANY(reflects)) {
         Vertex vertex;
         const mask met = reflects;
-        reflects &= find_vertices(scene, settings->camera, direction, hits, settings->samples, settings->bounce == 0, &vertex) &
-                    NOT(vertex.point.unlit);
+        reflects &=
+            find_vertices(scene, settings->camera, direction, hits, settings->samples, settings->bounce == 0, &vertex) &
+            NOT(vertex.point.unlit);
         multiply3(&result->throughput, &vertex.point.base_color, &result->throughput);
         if (settings->bounce == 0) choose3(met, &vertex.point.emission, &result->seen);
         choose3(met & vertex.point.unlit, &result->throughput, &result->seen);
@@ -157,19 +166,21 @@ INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, con
     clear_rays(NOT(reflects), &result->next_rays);
 }
 
-/// Bounce number `bounce` of the paths of the pixels from `first_pixel` on, whose rays met `hits`. `throughputs` (3 floats per
-/// path, not read for the first bounce) are multiplied by the albedo, and are zero where a path ends. pending (6 floats) gets what
-/// the light, if shadow_rays[i] is free, and the ambient light, if it is not occluded, add; next_rays[i] is the ray that finds the
-/// occlusion and the next surface. At the first bounce direct gets what is seen as it is, indirect and ambient 0. `next_rays` may
-/// be `rays`. A work-item takes `length` consecutive paths of the `count`. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes, uint light_count,
-               global const EnvironmentRecord* environment, global const float* environment_texels,
-               global const float* environment_rows, global const float* environment_columns, global const float* coefficients,
-               global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint first_pixel, uint bounce,
-               global const Ray* rays, global const Hit* hits, uint count, uint length, global float* throughputs,
-               global Ray* next_rays, global Ray* shadow_rays, global float* pending, global float* direct,
-               global float* indirect, global float* ambient) {
+/// Bounce number `bounce` of the paths of the pixels from `first_pixel` on, whose rays met `hits`. `throughputs` (3
+/// floats per path, not read for the first bounce) are multiplied by the albedo, and are zero where a path ends.
+/// pending (6 floats) gets what the light, if shadow_rays[i] is free, and the ambient light, if it is not occluded,
+/// add; next_rays[i] is the ray that finds the occlusion and the next surface. At the first bounce direct gets what is
+/// seen as it is, indirect and ambient 0. `next_rays` may be `rays`. A work-item takes `length` consecutive paths of
+/// the `count`. No barrier: work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes,
+                    uint light_count, global const EnvironmentRecord* environment,
+                    global const float* environment_texels, global const float* environment_rows,
+                    global const float* environment_columns, global const float* coefficients,
+                    global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint first_pixel,
+                    uint bounce, global const Ray* rays, global const Hit* hits, uint count, uint length,
+                    global float* throughputs, global Ray* next_rays, global Ray* shadow_rays, global float* pending,
+                    global float* direct, global float* indirect, global float* ambient) {
     const SceneArrays scene = SCENE_ARRAYS;
 #if LIGHTS
     const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
@@ -177,9 +188,12 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
     const LightArrays light_arrays = {lights, {light_nodes, 0, BOXWOOD_NONE, BOXWOOD_NONE}};
 #endif
 #if ENVIRONMENT
-    const EnvironmentArrays around = {environment,
+    const EnvironmentArrays around = {
+        environment,
 #if ENVIRONMENT == 2
-                                      environment_texels, environment_rows, environment_columns
+        environment_texels,
+        environment_rows,
+        environment_columns
 #endif
     };
 #endif
@@ -227,11 +241,13 @@ ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const 
     }
 }
 
-/// Adds what is pending: the light where blocked[i] is 0, the ambient light by the fraction that the next hit does not occlude. The
-/// first bounce adds to direct and ambient and sets ao, the others add to indirect. Without LIGHTS `blocked` may be null.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-ambient_gather(global const uint* blocked, global const Hit* next_hits, global const float* pending, float distance, uint bounce,
-               uint count, uint length, global float* direct, global float* indirect, global float* ambient, global float* ao) {
+/// Adds what is pending: the light where blocked[i] is 0, the ambient light by the fraction that the next hit does not
+/// occlude. The first bounce adds to direct and ambient and sets ao, the others add to indirect. Without LIGHTS
+/// `blocked` may be null.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void ambient_gather(global const uint* blocked, global const Hit* next_hits, global const float* pending,
+                    float distance, uint bounce, uint count, uint length, global float* direct, global float* indirect,
+                    global float* ambient, global float* ao) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
@@ -254,9 +270,10 @@ ambient_gather(global const uint* blocked, global const Hit* next_hits, global c
 }
 
 /// next_rays[i] finds the occlusion where rays[i] met a surface, as above; a null ray for a miss.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint first_pixel,
-               global const Ray* rays, global const Hit* hits, uint count, uint length, global Ray* next_rays) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, uint sample, uint samples,
+                    uint first_pixel, global const Ray* rays, global const Hit* hits, uint count, uint length,
+                    global Ray* next_rays) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
@@ -282,8 +299,9 @@ occlusion_rays(SCENE_PARAMETERS, global const CameraRecord* camera, ulong seed, 
 }
 
 /// ao[i], and light[3 * i] and the two behind it, = the fraction that is not occluded.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-occlusion_light(global const Hit* next_hits, float distance, uint count, uint length, global float* light, global float* ao) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void occlusion_light(global const Hit* next_hits, float distance, uint count, uint length, global float* light,
+                     global float* ao) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a surface scatters light: glTF's metallic-roughness model (glTF 2.0 appendix B, KHR_materials_specular), a Lambert lobe
-// under a GGX one. Directions are normalised, in the frame of the shading normal, z up, and point away from the surface.
+// How a surface scatters light: glTF's metallic-roughness model (glTF 2.0 appendix B, KHR_materials_specular), a
+// Lambert lobe under a GGX one. Directions are normalised, in the frame of the shading normal, z up, and point away
+// from the surface.
 //
 // SPECULAR  1: both lobes; 0: the Lambert one alone, for scenes whose materials have no other
 // UNIFORM_HEMISPHERE  1: the Lambert lobe is sampled uniformly, to see what cosines save; 0: by the cosine
@@ -17,17 +18,17 @@
 typedef struct Bsdf {
     Vector diffuse; ///< Albedo of the Lambert lobe, before what the coat reflects is taken off.
 #if SPECULAR
-    Vector f0;     ///< Reflectance of the GGX lobe at normal incidence,
-    real f90;      ///< and at grazing.
-    real coat;     ///< [0, 1], strength of the dielectric's reflection, which the Lambert lobe lacks.
-    real alpha;    ///< Width of the GGX lobe, SMALLEST_ALPHA or more.
-    real mirror_probability;    ///< Probability of taking the GGX lobe.
-    real shadow_o; ///< ggx_shadowing of the direction that it is seen from.
+    Vector f0;               ///< Reflectance of the GGX lobe at normal incidence,
+    real f90;                ///< and at grazing.
+    real coat;               ///< [0, 1], strength of the dielectric's reflection, which the Lambert lobe lacks.
+    real alpha;              ///< Width of the GGX lobe, SMALLEST_ALPHA or more.
+    real mirror_probability; ///< Probability of taking the GGX lobe.
+    real shadow_o;           ///< ggx_shadowing of the direction that it is seen from.
 #endif
 } Bsdf;
 
-// A half vector is known to some 2^-24, so that below this its distance to the normal, in units of alpha, loses more than 11
-// bits. Squares and fourth powers of it stay in range. Perceptual roughness 0.011.
+// A half vector is known to some 2^-24, so that below this its distance to the normal, in units of alpha, loses more
+// than 11 bits. Squares and fourth powers of it stay in range. Perceptual roughness 0.011.
 #define SMALLEST_ALPHA 0x1p-13f
 
 INLINE real luminance3(const Vector* c) { return 0.2126f * c->x + 0.7152f * c->y + 0.0722f * c->z; }
@@ -39,8 +40,8 @@ INLINE real schlick_weight(real x) {
     return m2 * m2 * m;
 }
 
-/// z (1 + 2 Lambda(w)) with Smith's shadowing term Lambda, which alone is infinite at grazing angles. At least alpha, but for
-/// rounding.
+/// z (1 + 2 Lambda(w)) with Smith's shadowing term Lambda, which alone is infinite at grazing angles. At least alpha,
+/// but for rounding.
 INLINE real ggx_shadowing(const Vector* w, real alpha) {
     return sqrt(fma(w->z, w->z, (alpha * alpha) * fma(w->x, w->x, w->y * w->y)));
 }
@@ -55,12 +56,14 @@ INLINE real specular_probability(const Bsdf* bsdf, real cosine) {
 #endif
 
 /// `roughness` is perceptual; everything in [0, 1]. What leaves to `wo` is asked for after that.
-INLINE void make_bsdf(const Vector* base_color, real metallic, real roughness, real specular, const Vector* wo, Bsdf* bsdf) {
+INLINE void make_bsdf(const Vector* base_color, real metallic, real roughness, real specular, const Vector* wo,
+                      Bsdf* bsdf) {
     bsdf->diffuse = *base_color;
     scale3(1.0f - metallic, &bsdf->diffuse);
 #if SPECULAR
     const real dielectric = specular * (1.0f - metallic), f0 = 0.04f * dielectric;
-    const Vector normal = {fma(metallic, base_color->x, f0), fma(metallic, base_color->y, f0), fma(metallic, base_color->z, f0)};
+    const Vector normal = {fma(metallic, base_color->x, f0), fma(metallic, base_color->y, f0),
+                           fma(metallic, base_color->z, f0)};
     bsdf->f0 = normal;
     bsdf->f90 = dielectric + metallic;
     bsdf->coat = specular;
@@ -83,7 +86,8 @@ INLINE real lambert_pdf(real cosine) {
 #endif
 }
 
-/// f(wo, wi) cos wi and the density with which sample_bsdf draws wi, by solid angle. Both 0 unless both are above the surface.
+/// f(wo, wi) cos wi and the density with which sample_bsdf draws wi, by solid angle. Both 0 unless both are above the
+/// surface.
 INLINE void evaluate_bsdf(const Bsdf* bsdf, const Vector* wo, const Vector* wi, Vector* value, real* pdf) {
     mask above = (wo->z > 0.0f) & (wi->z > 0.0f);
     *value = bsdf->diffuse;
@@ -108,7 +112,8 @@ INLINE void evaluate_bsdf(const Bsdf* bsdf, const Vector* wo, const Vector* wi, 
     value->x = fma(fma(f90 - f0.x, weight, f0.x), mirrored, value->x * scattered);
     value->y = fma(fma(f90 - f0.y, weight, f0.y), mirrored, value->y * scattered);
     value->z = fma(fma(f90 - f0.z, weight, f0.z), mirrored, value->z * scattered);
-    *pdf = fma(bsdf->mirror_probability, half_distribution / (wo->z + bsdf->shadow_o), (1.0f - bsdf->mirror_probability) * lambert_pdf(wi->z));
+    *pdf = fma(bsdf->mirror_probability, half_distribution / (wo->z + bsdf->shadow_o),
+               (1.0f - bsdf->mirror_probability) * lambert_pdf(wi->z));
 #else
     scale3(wi->z * M_1_PI_F, value);
     *pdf = lambert_pdf(wi->z);
@@ -136,8 +141,8 @@ INLINE void sample_lambert(real u, real v, Vector* wi) {
 }
 
 #if SPECULAR
-/// `wo` mirrored at a normal of the microfacets that it sees, drawn by their visible area (Dupuy and Benyoub 2023: a cap of the
-/// sphere) at an azimuth.
+/// `wo` mirrored at a normal of the microfacets that it sees, drawn by their visible area (Dupuy and Benyoub 2023: a
+/// cap of the sphere) at an azimuth.
 INLINE void ggx_direction(const Vector* wo, real alpha, real sine, real cosine, real v, Vector* wi) {
     Vector view = {alpha * wo->x, alpha * wo->y, wo->z};
     normalise3(&view);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Light from infinitely far away: its radiance in a direction, and directions drawn by it.
 //
-// ENVIRONMENT  0: there is none. 1: the same everywhere; drawn uniformly from the hemisphere over a surface. 2: a picture of the
-//              sphere, bilinear between the centres of texels; drawn by its luminance: a patch between four centres, then a
-//              place in it (Pharr, Jakob and Humphreys 2023, A.5), so that there is no radiance without density.
-// COMPENSATED  for ENVIRONMENT 2. 1: surfaces draw directions, too, and both are weighted by the balance or power heuristic: drawn by
-//              what is above the mean luminance, the even part being left to the surfaces (Karlik et al. 2019). 0: by all of it.
+// ENVIRONMENT  0: there is none. 1: the same everywhere; drawn uniformly from the hemisphere over a surface. 2: a
+//              picture of the sphere, bilinear between the centres of texels; drawn by its luminance: a patch between
+//              four centres, then a place in it (Pharr, Jakob and Humphreys 2023, A.5), so that there is no radiance
+//              without density.
+// COMPENSATED  for ENVIRONMENT 2. 1: surfaces draw directions, too, and both are weighted by the balance or power
+//              heuristic: drawn by what is above the mean luminance, the even part being left to the surfaces (Karlik
+//              et al. 2019). 0: by all of it.
 #ifndef BOXWOOD_RENDER_ENVIRONMENT_H
 #define BOXWOOD_RENDER_ENVIRONMENT_H
 #include "render/search.h"
@@ -40,8 +42,8 @@ INLINE void mix3(real part, const Vector* to, Vector* from) {
     from->z = fma(part, to->z - from->z, from->z);
 }
 
-/// A patch of the picture, in each lane: the texels whose centres are its corners (those of the first or the last row twice, half a
-/// texel being left beyond them), and where it begins and ends, in texels.
+/// A patch of the picture, in each lane: the texels whose centres are its corners (those of the first or the last row
+/// twice, half a texel being left beyond them), and where it begins and ends, in texels.
 typedef struct Patch {
     Vector corners[2][2]; ///< Radiance, by row and column,
     real weights[2][2];   ///< and what places are drawn by.
@@ -53,7 +55,8 @@ INLINE real luminance(const Vector* c) { return fma(c->x, 0.2126f, fma(c->y, 0.7
 /// from becomes (1 - part) from + part to, not negative where neither is.
 INLINE real mix_weights(real from, real to, real part) { return GREATER(fma(part, to - from, from), (real)(0.0f)); }
 
-/// The patch of column `column`, which begins at the centre of that texel, and row `row`, which ends at the centre of that one.
+/// The patch of column `column`, which begins at the centre of that texel, and row `row`, which ends at the centre of
+/// that one.
 INLINE void load_patch(const EnvironmentArrays* environment, const uint* column, const uint* row, Patch* patch) {
     const uint width = environment->record->width, height = environment->record->height;
     uint index[2][2][LANES];
@@ -88,10 +91,10 @@ INLINE void patch_radiance(const Patch* patch, real across, real down, Vector* r
     mix3(down, &below, radiance);
 }
 
-/// Density, by solid angle, at a place of a patch that is chosen with `probability`. `sine` is that of the angle to the picture's
-/// axis, where the density is infinite: it ends at a sine that floats hardly have room for.
-INLINE real patch_density(const EnvironmentArrays* environment, const Patch* patch, real probability, real across, real down,
-                          real sine) {
+/// Density, by solid angle, at a place of a patch that is chosen with `probability`. `sine` is that of the angle to the
+/// picture's axis, where the density is infinite: it ends at a sine that floats hardly have room for.
+INLINE real patch_density(const EnvironmentArrays* environment, const Patch* patch, real probability, real across,
+                          real down, real sine) {
     const float scale =
         ((float)environment->record->width * (float)environment->record->height) * (0.5f * M_1_PI_F * M_1_PI_F);
     const real sum = (patch->weights[0][0] + patch->weights[0][1]) + (patch->weights[1][0] + patch->weights[1][1]);
@@ -111,9 +114,10 @@ INLINE real sample_linear(real first, real last, real u) {
 #endif
 
 #if ENVIRONMENT
-/// Radiance from a normalised direction, and the density, by solid angle, with which sample_environment draws it. In lanes whose
-/// direction is anything else, it is anything.
-INLINE void environment_light(const EnvironmentArrays* environment, const Vector* direction, Vector* radiance, real* pdf) {
+/// Radiance from a normalised direction, and the density, by solid angle, with which sample_environment draws it. In
+/// lanes whose direction is anything else, it is anything.
+INLINE void environment_light(const EnvironmentArrays* environment, const Vector* direction, Vector* radiance,
+                              real* pdf) {
 #if ENVIRONMENT == 1
     (void)direction;
     *pdf = (real)(0.5f * M_1_PI_F);
@@ -122,8 +126,8 @@ INLINE void environment_light(const EnvironmentArrays* environment, const Vector
     const uint width = environment->record->width, height = environment->record->height;
     const real right = (real)((float)width), bottom = (real)((float)height);
     const real sine = sqrt(direction->x * direction->x + direction->z * direction->z);
-    // By arctangents, which lose no digits at the poles. The middle is +x, the right of it +z, but for the picture's own turn. NaN
-    // ends at the right and below.
+    // By arctangents, which lose no digits at the poles. The middle is +x, the right of it +z, but for the picture's
+    // own turn. NaN ends at the right and below.
     const real turn = 0.5f + 0.5f * atan2_pi(direction->z, direction->x) + environment->record->turn;
     const real x = LESSER((turn - CHOOSE(turn >= 1.0f, (real)(1.0f), (real)(0.0f))) * right, right);
     const real y = LESSER(atan2_pi(sine, direction->y) * bottom, bottom);
@@ -157,10 +161,10 @@ inline float drawn_irradiance(const EnvironmentArrays* environment) {
 #endif
 }
 
-/// Draws a direction by u and v in [0, 1); tells its radiance and its density. `normal` is that of the surface, read for a
-/// constant environment.
-INLINE void sample_environment(const EnvironmentArrays* environment, const Vector* normal, real u, real v, Vector* direction,
-                               Vector* radiance, real* pdf) {
+/// Draws a direction by u and v in [0, 1); tells its radiance and its density. `normal` is that of the surface, read
+/// for a constant environment.
+INLINE void sample_environment(const EnvironmentArrays* environment, const Vector* normal, real u, real v,
+                               Vector* direction, Vector* radiance, real* pdf) {
 #if ENVIRONMENT == 1
     const real z = 1.0f - 2.0f * v;
     const real radius = sqrt(GREATER(1.0f - z * z, (real)(0.0f)));
@@ -182,7 +186,8 @@ INLINE void sample_environment(const EnvironmentArrays* environment, const Vecto
     (void)normal;
     Patch patch;
     load_patch(environment, column, row, &patch);
-    const real down = sample_linear(patch.weights[0][0] + patch.weights[0][1], patch.weights[1][0] + patch.weights[1][1], v);
+    const real down =
+        sample_linear(patch.weights[0][0] + patch.weights[0][1], patch.weights[1][0] + patch.weights[1][1], v);
     const real across = sample_linear(mix_weights(patch.weights[0][0], patch.weights[1][0], down),
                                       mix_weights(patch.weights[0][1], patch.weights[1][1], down), u);
     const real x = patch.left + across, y = fma(down, patch.height, patch.top);

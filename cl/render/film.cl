@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Samples added up, pixel by pixel. A film has FILM_FLOATS floats for each pixel of the picture, in packets of 8 consecutive
-// pixels: the first float of all 8, the second, ...; the last packet is whole. The floats of a pixel are
+// Samples added up, pixel by pixel. A film has FILM_FLOATS floats for each pixel of the picture, in packets of 8
+// consecutive pixels: the first float of all 8, the second, ...; the last packet is whole. The floats of a pixel are
 //
-//     sum of each of SUMS values, what rounding lost of each sum (Kahan 1965), mean of the luminance, sum of its squared
-//     differences from the mean (Welford 1962), number of samples
+//     sum of each of SUMS values, what rounding lost of each sum (Kahan 1965), mean of the luminance, sum of its
+//     squared differences from the mean (Welford 1962), number of samples
 //
-// so that a million samples of one brightness lose no more digits than one. SUMS = 3 * LIGHTS + AO: R, G, B of each part of the
-// light, then the fraction of the ambient light that is not occluded.
+// so that a million samples of one brightness lose no more digits than one. SUMS = 3 * LIGHTS + AO: R, G, B of each
+// part of the light, then the fraction of the ambient light that is not occluded.
 //
 // LIGHTS      1 to 3: parts of the light; their sum is what is seen.
 // AO          1: there is a fraction of ambient light.
@@ -66,13 +66,14 @@ INLINE void load_part(global const float* part, const uint* index, real* values)
     for (uint c = 0; c < 3; ++c) values[c] = row[c];
 }
 
-/// Adds a sample to the pixels from number `first` on: R, G, B of each part of pixel first + i at [3 * i], its fraction of ambient
-/// light at ao[i]. A sample with a value that is NaN, infinite or negative is left out. Parts beyond LIGHTS and, without AO, `ao`
-/// may be null. A work-item takes `length` consecutive pixels, a multiple of LANES; the first one's begin at the last multiple of
-/// LANES up to `first`, and those before are left as they are. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-film_add(global const float* part0, global const float* part1, global const float* part2, global const float* ao, uint first,
-         uint count, uint length, global float* film) {
+/// Adds a sample to the pixels from number `first` on: R, G, B of each part of pixel first + i at [3 * i], its fraction
+/// of ambient light at ao[i]. A sample with a value that is NaN, infinite or negative is left out. Parts beyond LIGHTS
+/// and, without AO, `ao` may be null. A work-item takes `length` consecutive pixels, a multiple of LANES; the first
+/// one's begin at the last multiple of LANES up to `first`, and those before are left as they are. No barrier:
+/// work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void film_add(global const float* part0, global const float* part1, global const float* part2, global const float* ao,
+              uint first, uint count, uint length, global float* film) {
     const uint last = first + count; // pictures have fewer than 2^31 pixels
     const ulong begin = first - first % LANES + (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)last);

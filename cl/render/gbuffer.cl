@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Hits turned into the planes of a G-buffer. Macros: render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
 //
-// PLANES      which planes there are, one bit each: 1 position, 2 geometric normal, 4 shading normal, 8 albedo, 16 depth,
-//             32 derivatives of texture coordinates, 64 material, 128 instance, 256 primitive. The others may be null.
+// PLANES      which planes there are, one bit each: 1 position, 2 geometric normal, 4 shading normal, 8 albedo, 16
+//             depth, 32 derivatives of texture coordinates, 64 material, 128 instance, 256 primitive. The others may be
+//             null.
 // GROUP_SIZE  work-items per work-group.
 //
 // compile: PLANES=511 MATERIALS=1 NORMALS=1 TANGENTS=1 UV_SETS=2 COLORS=1 TEXTURES=1 FILTER=2 WIDE_TEXELS=1 LANES=16 TRANSFORMS=1
@@ -26,8 +27,8 @@ typedef struct Pixels {
 } Pixels;
 
 /// What the planes show of hits, of which at least one is one; anything in the other lanes.
-INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction, const Hits* hits,
-                        float fraction, Pixels* pixels) {
+INLINE void find_pixels(const SceneArrays* scene, global const CameraRecord* camera, const Vector* direction,
+                        const Hits* hits, float fraction, Pixels* pixels) {
     Triangles triangles;
     load_triangles(scene->positions, scene->triangles, scene->meshes, scene->instances, hits, &triangles);
     material_numbers(scene, &triangles, pixels->material);
@@ -87,13 +88,13 @@ INLINE void clear_pixels(mask condition, Pixels* pixels) {
     }
 }
 
-/// Element i of every plane is what rays[i] met at hits[i]. A work-item writes `length` consecutive ones of the `count`. No
-/// barriers: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* rays, global const Hit* hits, uint count,
-         uint length, float fraction, global float* out_positions, global float* geometric_normals,
-         global float* shading_normals, global float* albedos, global float* depths, global float* uv_derivatives,
-         global uint* out_materials, global uint* out_instances, global uint* primitives) {
+/// Element i of every plane is what rays[i] met at hits[i]. A work-item writes `length` consecutive ones of the
+/// `count`. No barriers: work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void g_buffer(SCENE_PARAMETERS, global const CameraRecord* camera, global const Ray* rays, global const Hit* hits,
+              uint count, uint length, float fraction, global float* out_positions, global float* geometric_normals,
+              global float* shading_normals, global float* albedos, global float* depths, global float* uv_derivatives,
+              global uint* out_materials, global uint* out_instances, global uint* primitives) {
     const SceneArrays scene = SCENE_ARRAYS;
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);

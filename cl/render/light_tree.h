@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A binary tree over the lights of a scene, by which one is chosen for a place (Conty Estevez and Kulla 2018): from the root down,
-// each child with its probability of what both may send there, whatever is in between and whichever way the surface faces.
+// A binary tree over the lights of a scene, by which one is chosen for a place (Conty Estevez and Kulla 2018): from the
+// root down, each child with its probability of what both may send there, whatever is in between and whichever way the
+// surface faces.
 #ifndef BOXWOOD_RENDER_LIGHT_TREE_H
 #define BOXWOOD_RENDER_LIGHT_TREE_H
 #include "runtime/vector.h"
@@ -33,8 +34,8 @@ typedef struct Importance {
 // The least probability of a node that gives light beside one that does.
 #define LEAST_PROBABILITY 0x1p-6f
 
-// What environment, distant and other lights share evenly; the rest goes by irradiance. Walls often keep the brightest of them from
-// a place, and no reflected ray finds a light without extent.
+// What environment, distant and other lights share evenly; the rest goes by irradiance. Walls often keep the brightest
+// of them from a place, and no reflected ray finds a light without extent.
 #define EVEN_PART 0.5f
 
 /// From its nodes and the number of lights, > 0.
@@ -91,8 +92,9 @@ INLINE real irradiance_of(const Importance* importance) {
 INLINE real first_probability(const Importance* first, const Importance* second) {
     const real ratio = second->amplitude / first->amplitude;
     const real found = 1.0f / (1.0f + ratio * ratio * (second->facing / first->facing));
-    const real probability = CHOOSE(found >= 0.0f, larger(smaller(found, (real)(1.0f - LEAST_PROBABILITY)), (real)(LEAST_PROBABILITY)),
-                              (real)(0.5f));
+    const real probability =
+        CHOOSE(found >= 0.0f, larger(smaller(found, (real)(1.0f - LEAST_PROBABILITY)), (real)(LEAST_PROBABILITY)),
+               (real)(0.5f));
     return CHOOSE(first->gives & NOT(second->gives), (real)(1.0f),
                   CHOOSE(second->gives & NOT(first->gives), (real)(0.0f), probability));
 }
@@ -116,8 +118,8 @@ INLINE mask go_down(const LightTree* tree, mask to_first, const uint* first, con
     return LOAD_LANES(node) < tree->inner;
 }
 
-/// Irradiance by all lights that are not distant, of which there are some: by a cut of the tree that is finest about the light that
-/// matters most. O(depth of the tree).
+/// Irradiance by all lights that are not distant, of which there are some: by a cut of the tree that is finest about
+/// the light that matters most. O(depth of the tree).
 INLINE real near_irradiance(const LightTree* tree, const Vector* place) {
     uint node[LANES], first[LANES], second[LANES];
     for (uint lane = 0; lane < LANES; ++lane) node[lane] = tree->near;
@@ -135,9 +137,11 @@ INLINE real near_irradiance(const LightTree* tree, const Vector* place) {
 }
 
 /// `environment` is its irradiance, 0 where there is none. A single kind has all samples.
-INLINE void light_probabilities(const LightTree* tree, float environment, const Vector* place, LightProbabilities* probabilities) {
+INLINE void light_probabilities(const LightTree* tree, float environment, const Vector* place,
+                                LightProbabilities* probabilities) {
     const bool sky = environment > 0.0f, distant = tree->distant != BOXWOOD_NONE, near = tree->near != BOXWOOD_NONE;
-    const LightProbabilities one = {(real)(sky ? 1.0f : 0.0f), (real)(distant ? 1.0f : 0.0f), (real)(near ? 1.0f : 0.0f)};
+    const LightProbabilities one = {(real)(sky ? 1.0f : 0.0f), (real)(distant ? 1.0f : 0.0f),
+                                    (real)(near ? 1.0f : 0.0f)};
     *probabilities = one;
     const float kinds = (sky ? 1.0f : 0.0f) + (distant ? 1.0f : 0.0f) + (near ? 1.0f : 0.0f);
     if (kinds < 2.0f) return;
@@ -153,9 +157,10 @@ INLINE void light_probabilities(const LightTree* tree, float environment, const 
     probabilities->near *= CHOOSE(known, EVEN_PART * even + (1.0f - EVEN_PART) * (of_near / all), even);
 }
 
-/// Chooses a light below `root`. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(depth of the tree). Any
-/// place and u, even NaN, give a light.
-INLINE void choose_light(const LightTree* tree, const uint* root, const Vector* place, real* u, uint* light, real* probability) {
+/// Chooses a light below `root`. `u` in [0, 1) becomes what is left of it, uniform in [0, 1) again. O(depth of the
+/// tree). Any place and u, even NaN, give a light.
+INLINE void choose_light(const LightTree* tree, const uint* root, const Vector* place, real* u, uint* light,
+                         real* probability) {
     uint node[LANES], first[LANES], second[LANES];
     for (uint lane = 0; lane < LANES; ++lane) node[lane] = root[lane];
     *probability = (real)(1.0f);
@@ -173,7 +178,8 @@ INLINE void choose_light(const LightTree* tree, const uint* root, const Vector* 
     for (uint lane = 0; lane < LANES; ++lane) light[lane] = node[lane] - tree->inner;
 }
 
-/// With what probability choose_light gives the lights that `light` names, not distant, from the root of those. O(their depth).
+/// With what probability choose_light gives the lights that `light` names, not distant, from the root of those. O(their
+/// depth).
 INLINE real near_probability(const LightTree* tree, const uint* light, const Vector* place) {
     uint node[LANES], parent[LANES], first[LANES], second[LANES];
     for (uint lane = 0; lane < LANES; ++lane) node[lane] = tree->inner + light[lane];

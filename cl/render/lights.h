@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light from the lights of a scene: one chosen for the place, a point on it, and with what density. Nothing depends on how large
-// the scene is. Macros: render/shading_point.h, runtime/real.h.
+// Light from the lights of a scene: one chosen for the place, a point on it, and with what density. Nothing depends on
+// how large the scene is. Macros: render/shading_point.h, runtime/real.h.
 //
 // ALPHA     1: some surface lets light pass
 // EMISSION  1: some triangles are lights
@@ -59,8 +59,8 @@ INLINE void load_lights(global const LightRecord* records, const uint* index, Li
     *light = loaded;
 }
 
-/// The part of a spot's intensity that goes along `direction`, which is `v` normalised. As KHR_lights_punctual has it, but by
-/// 1 - cosine = sine^2 / (1 + cosine), `square` being that of v.
+/// The part of a spot's intensity that goes along `direction`, which is `v` normalised. As KHR_lights_punctual has it,
+/// but by 1 - cosine = sine^2 / (1 + cosine), `square` being that of v.
 INLINE real spot_edge(const Light* light, const Vector* v, real square, const Vector* direction) {
     Vector sine;
     exact_cross3(&light->axis, v, &sine);
@@ -109,8 +109,8 @@ INLINE void punctual_light(const Light* light, const Vector* origin, real probab
 }
 
 /// The lights without extent that `index` names; of others anything.
-INLINE void sample_punctual(global const LightRecord* records, const uint* index, const Vector* origin, real probability,
-                            LightSample* sample) {
+INLINE void sample_punctual(global const LightRecord* records, const uint* index, const Vector* origin,
+                            real probability, LightSample* sample) {
     Light light;
     load_lights(records, index, &light);
     punctual_light(&light, origin, probability, sample);
@@ -118,8 +118,8 @@ INLINE void sample_punctual(global const LightRecord* records, const uint* index
 
 #if EMISSION
 #if TEXTURES || ALPHA
-/// What textures and alpha make of the radiance of a triangle at a place on it. The finest level of a texture: as if the lamp
-/// were seen from near, whatever the beam that meets it.
+/// What textures and alpha make of the radiance of a triangle at a place on it. The finest level of a texture: as if
+/// the lamp were seen from near, whatever the beam that meets it.
 inline float3 lamp_texture_at(const SceneArrays* scene, uint instance, uint primitive, float u, float v) {
     float3 factor = (float3)(1.0f);
     Spot spot;
@@ -135,8 +135,8 @@ inline float3 lamp_texture_at(const SceneArrays* scene, uint instance, uint prim
 }
 
 /// The same in the lanes that are wanted, for the lights that `index` names; `value` is multiplied by it.
-INLINE void shade_lamps(const SceneArrays* scene, global const LightRecord* records, const uint* index, mask wanted, real u,
-                        real v, Vector* value) {
+INLINE void shade_lamps(const SceneArrays* scene, global const LightRecord* records, const uint* index, mask wanted,
+                        real u, real v, Vector* value) {
     int wants[LANES];
     float us[LANES], vs[LANES], red[LANES], green[LANES], blue[LANES];
     STORE_LANES(wanted, wants);
@@ -155,9 +155,11 @@ INLINE void shade_lamps(const SceneArrays* scene, global const LightRecord* reco
 }
 #endif
 
-/// The triangles at a uniform point of each; `sample` stays as it is where not `wanted`. The segment ends clear of the triangle.
-INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* records, const uint* index, const Light* light,
-                            mask wanted, const Vector* origin, real u, real v, real probability, LightSample* sample) {
+/// The triangles at a uniform point of each; `sample` stays as it is where not `wanted`. The segment ends clear of the
+/// triangle.
+INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* records, const uint* index,
+                            const Light* light, mask wanted, const Vector* origin, real u, real v, real probability,
+                            LightSample* sample) {
     const real root = sqrt(u), along1 = root * (1.0f - v), along2 = root * v;
     Vector point = {along1 * light->edges[0].x + along2 * light->edges[1].x,
                     along1 * light->edges[0].y + along2 * light->edges[1].y,
@@ -177,8 +179,8 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
     scale3(CHOOSE(square > 0.0f, 1.0f / sqrt(square), (real)(0.0f)), &direction);
     const real cosine = -dot3(&direction, &normal), far = power * light->inverse_size;
     const real density = probability * (square / cosine) * far * far;
-    const mask lit = wanted & (cosine > 0.0f) & (NOT(behind) | light->two_sided) & (density > 0.0f) &
-                     (density < INFINITY);
+    const mask lit =
+        wanted & (cosine > 0.0f) & (NOT(behind) | light->two_sided) & (density > 0.0f) & (density < INFINITY);
     const real pdf = CHOOSE(lit, density, (real)(0.0f)), weight = CHOOSE(lit, 1.0f / density, (real)(0.0f));
     Vector value = light->intensity;
     scale3(weight, &value);
@@ -192,9 +194,10 @@ INLINE void sample_triangle(const SceneArrays* scene, global const LightRecord* 
     sample->t_max = CHOOSE(wanted, (real)(BEFORE_ONE), sample->t_max);
 }
 
-/// Density, by solid angle, with which sample_light draws, for `origin`, the place that a ray from there met after `distance` at an
-/// angle of `cosine`, but for the probability of lights that are near; 0 where a lane's triangle is no light. O(log lights): triangles are
-/// ordered by instance and primitive, after the lights without extent, which have no instance.
+/// Density, by solid angle, with which sample_light draws, for `origin`, the place that a ray from there met after
+/// `distance` at an angle of `cosine`, but for the probability of lights that are near; 0 where a lane's triangle is no
+/// light. O(log lights): triangles are ordered by instance and primitive, after the lights without extent, which have
+/// no instance.
 INLINE real triangle_pdf(const LightArrays* lights, const Vector* origin, const uint* instance, const uint* primitive,
                          real distance, real cosine) {
     uint low[LANES];
@@ -228,12 +231,13 @@ INLINE real triangle_pdf(const LightArrays* lights, const Vector* origin, const 
 }
 #endif
 
-/// Chooses among all lights by u in [0, probabilities->distant + probabilities->near), which becomes what is left of it, uniform in [0, 1); also the
-/// light's probability among all samples. Any u gives a light.
-INLINE void choose_any_light(const LightTree* tree, const LightProbabilities* probabilities, const Vector* origin, real* u, uint* index,
-                             real* probability) {
+/// Chooses among all lights by u in [0, probabilities->distant + probabilities->near), which becomes what is left of
+/// it, uniform in [0, 1); also the light's probability among all samples. Any u gives a light.
+INLINE void choose_any_light(const LightTree* tree, const LightProbabilities* probabilities, const Vector* origin,
+                             real* u, uint* index, real* probability) {
     mask distant = *u < probabilities->distant;
-    if (tree->distant == BOXWOOD_NONE || tree->near == BOXWOOD_NONE) distant = (mask)(tree->near == BOXWOOD_NONE ? -1 : 0);
+    if (tree->distant == BOXWOOD_NONE || tree->near == BOXWOOD_NONE)
+        distant = (mask)(tree->near == BOXWOOD_NONE ? -1 : 0);
     const real of_kind = CHOOSE(distant, probabilities->distant, probabilities->near);
     *u = smaller(larger(CHOOSE(distant, *u, *u - probabilities->distant) / of_kind, (real)(0.0f)), (real)(BEFORE_ONE));
     uint root[LANES];
@@ -242,10 +246,10 @@ INLINE void choose_any_light(const LightTree* tree, const LightProbabilities* pr
     *probability *= of_kind;
 }
 
-/// Light on `origin`: u, see choose_any_light, and v in [0, 1), a point of one pattern, take the light and the place on it, so that
-/// the lights share the pattern's evenness; `low_bits` in [0, 1) is what u loses where lights are many.
-INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const LightProbabilities* probabilities, const Vector* origin,
-                         real u, real v, real low_bits, LightSample* sample) {
+/// Light on `origin`: u, see choose_any_light, and v in [0, 1), a point of one pattern, take the light and the place on
+/// it, so that the lights share the pattern's evenness; `low_bits` in [0, 1) is what u loses where lights are many.
+INLINE void sample_light(const SceneArrays* scene, const LightArrays* lights, const LightProbabilities* probabilities,
+                         const Vector* origin, real u, real v, real low_bits, LightSample* sample) {
     uint index[LANES];
     real probability;
     choose_any_light(&lights->tree, probabilities, origin, &u, index, &probability);

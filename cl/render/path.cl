@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shading of a queue of rays and their hits: each path gathers light, asks for a shadow ray, and goes on or ends. Macros:
-// render/path.h, and
+// Shading of a queue of rays and their hits: each path gathers light, asks for a shadow ray, and goes on or ends.
+// Macros: render/path.h, and
 //
 // GROUP_SIZE  work-items per work-group.
 // compile: MATERIALS=0 NORMALS=0 TANGENTS=0 UV_SETS=0 COLORS=0 TEXTURES=0 ALPHA=0 SPECULAR=0 UNIFORM_HEMISPHERE=0 EMISSION=0 LIGHTS=0 ENVIRONMENT=0 STRATEGY=0 SAMPLER=2 LANES=16 TRANSFORMS=1
@@ -29,7 +29,8 @@ typedef struct Gathered {
 // Spread of a cone, for one sample per pixel, up to which what it meets is seen as in a mirror: of roughness 0.13.
 #define MIRROR_SPREAD 0x1p-4f
 
-/// The beams where they meet the surfaces; `width` is that of the path's cone there, `spread` what it grows by per distance.
+/// The beams where they meet the surfaces; `width` is that of the path's cone there, `spread` what it grows by per
+/// distance.
 INLINE void find_beam(global const CameraRecord* camera, const PathSettings* settings, const Vector* direction, real t,
                       mask first, real width, real spread, Beam* beam) {
 #if TEXTURES
@@ -54,7 +55,8 @@ INLINE void find_beam(global const CameraRecord* camera, const PathSettings* set
 }
 
 #if ALPHA
-/// Paths that pass a surface because of its alpha go on behind it, each nearer to the end of its ray: they end, however many there are.
+/// Paths that pass a surface because of its alpha go on behind it, each nearer to the end of its ray: they end, however
+/// many there are.
 INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_before, real t, real alpha, Paths* paths,
                           Rays* rays) {
     choose3(passes, &before->throughput, &paths->throughput);
@@ -70,11 +72,12 @@ INLINE void pass_surfaces(mask passes, const Paths* before, const Rays* rays_bef
 }
 #endif
 
-/// Follows paths at the surfaces on which the lanes of `met` are. Returns which go on, with `paths` and `rays` as they then are.
+/// Follows paths at the surfaces on which the lanes of `met` are. Returns which go on, with `paths` and `rays` as they
+/// then are.
 INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,
                            const Hits* hits, mask met, Paths* paths, Rays* rays, Gathered* gathered) {
-    const Sampler sampler = {random_key(settings->seed, TO_WIDE(paths->pixel) + settings->first_pixel), settings->sample,
-                             settings->samples};
+    const Sampler sampler = {random_key(settings->seed, TO_WIDE(paths->pixel) + settings->first_pixel),
+                             settings->sample, settings->samples};
     const Vector direction = rays->direction;
     const mask first = paths->bounces == 0;
     const real width = fma(paths->spread, hits->t, paths->width);
@@ -116,8 +119,8 @@ INLINE mask leave_surfaces(const PathWorld* world, const PathSettings* settings,
 }
 
 /// Follows paths at their hits. Returns which go on, with `paths` and `rays` as they then are.
-INLINE mask follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera, const Hits* hits,
-                   Paths* paths, Rays* rays, Gathered* gathered) {
+INLINE mask follow(const PathWorld* world, const PathSettings* settings, global const CameraRecord* camera,
+                   const Hits* hits, Paths* paths, Rays* rays, Gathered* gathered) {
     const Vector dark = {(real)(0.0f), (real)(0.0f), (real)(0.0f)}, throughput = paths->throughput;
     gathered->light = gathered->shadow = dark;
     gathered->has_shadow = (mask)(0);
@@ -174,16 +177,15 @@ INLINE void load_paths(global const PathState* states, const uint* index, Paths*
 }
 
 INLINE void store_paths(const Paths* paths, global PathState* states, const uint* index, uint count) {
-    real row[8] = {paths->throughput.x,      paths->throughput.y,
-                   paths->throughput.z,      paths->pdf,
-                   AS_REAL(paths->pixel),    AS_REAL(paths->bounces | paths->layers << 8),
-                   paths->width,             paths->spread};
+    real row[8] = {paths->throughput.x, paths->throughput.y,   paths->throughput.z,
+                   paths->pdf,          AS_REAL(paths->pixel), AS_REAL(paths->bounces | paths->layers << 8),
+                   paths->width,        paths->spread};
     store_rows8(row, states->throughput, 8, index, count);
 }
 
 #if NEXT_EVENT
-INLINE void store_shadows(Gathered* gathered, const Paths* paths, mask indirect, global Ray* rays, global ShadowLight* lights,
-                          const uint* index, uint count) {
+INLINE void store_shadows(Gathered* gathered, const Paths* paths, mask indirect, global Ray* rays,
+                          global ShadowLight* lights, const uint* index, uint count) {
     clear_rays(NOT(gathered->has_shadow), &gathered->shadow_rays);
     store_rays(&gathered->shadow_rays, rays, index, count);
     const whole pixel = paths->pixel | CHOOSE(indirect, (whole)(BOXWOOD_INDIRECT), (whole)(0));
@@ -214,8 +216,8 @@ INLINE void add_gathered(const Vector* light, const Paths* paths, mask indirect,
     }
 }
 
-/// Where the lanes that go on are kept; the others name the place of the next one, which overwrites them. Returns the place
-/// behind all.
+/// Where the lanes that go on are kept; the others name the place of the next one, which overwrites them. Returns the
+/// place behind all.
 INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
     int keeps[LANES];
     STORE_LANES(goes_on, keeps);
@@ -226,18 +228,19 @@ INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
     return place;
 }
 
-/// Follows the `count` paths of `states`, rays[i] having met hits[i]; with `first`, the paths begin at the camera, pixel i of the
-/// batch with rays[i], states and light are not read. A slice is `length` consecutive paths. direct and indirect (3 per pixel)
-/// get what the paths gather; shadow_rays[i] and shadow_lights[i] the shadow ray of path i. The paths of a slice that go on are
-/// moved to its front, their number is kept[slice], and kept[slices] = 0. `next_rays` may be `rays`; a path has one pixel and a
-/// pixel one path. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
-    SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes, uint light_count,
-    global const EnvironmentRecord* environment, global const float* environment_texels, global const float* environment_rows,
-    global const float* environment_columns, global const CameraRecord* camera, ulong seed, uint sample, uint samples,
-    uint depth, uint first_pixel, uint first, global const Ray* rays, global const Hit* hits, uint count, uint length,
-    uint slices, global PathState* states, global Ray* next_rays, global Ray* shadow_rays, global ShadowLight* shadow_lights,
-    global uint* kept, global float* direct, global float* indirect) {
+/// Follows the `count` paths of `states`, rays[i] having met hits[i]; with `first`, the paths begin at the camera,
+/// pixel i of the batch with rays[i], states and light are not read. A slice is `length` consecutive paths. direct and
+/// indirect (3 per pixel) get what the paths gather; shadow_rays[i] and shadow_lights[i] the shadow ray of path i. The
+/// paths of a slice that go on are moved to its front, their number is kept[slice], and kept[slices] = 0. `next_rays`
+/// may be `rays`; a path has one pixel and a pixel one path. No barrier: work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void shade_paths(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes,
+                 uint light_count, global const EnvironmentRecord* environment, global const float* environment_texels,
+                 global const float* environment_rows, global const float* environment_columns,
+                 global const CameraRecord* camera, ulong seed, uint sample, uint samples, uint depth, uint first_pixel,
+                 uint first, global const Ray* rays, global const Hit* hits, uint count, uint length, uint slices,
+                 global PathState* states, global Ray* next_rays, global Ray* shadow_rays,
+                 global ShadowLight* shadow_lights, global uint* kept, global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     PathWorld world;
@@ -251,7 +254,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void shade_paths(
     const EnvironmentArrays environment_arrays = {
         environment,
 #if ENVIRONMENT == 2
-        environment_texels, environment_rows, environment_columns
+        environment_texels,
+        environment_rows,
+        environment_columns
 #endif
     };
     world.environment = environment_arrays;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One bounce of paths, one path per lane: what they gather at a surface and where they go on. Macros: those of the headers
-// included here, and
+// One bounce of paths, one path per lane: what they gather at a surface and where they go on. Macros: those of the
+// headers included here, and
 //
-// STRATEGY  how direct light is sampled: 0 both ways, with the power heuristic (Veach 1997); 1 towards lights; 2 by the surface
-//           (lights without extent always towards them)
+// STRATEGY  how direct light is sampled: 0 both ways, with the power heuristic (Veach 1997); 1 towards lights; 2 by the
+//           surface (lights without extent always towards them)
 // LIGHTS    1: there are lights to sample towards
 #ifndef BOXWOOD_RENDER_PATH_H
 #define BOXWOOD_RENDER_PATH_H
@@ -107,8 +107,8 @@ INLINE void sky_light(const PathWorld* world, const Rays* rays, mask first, real
 }
 
 /// Radiance that surfaces send back along rays, by its fraction among the strategies.
-INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Rays* rays, const Hits* hits, mask first,
-                          real pdf, Vector* light) {
+INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, const Rays* rays, const Hits* hits,
+                          mask first, real pdf, Vector* light) {
     *light = point->emission;
 #if EMISSION && LIGHTS && STRATEGY != 2
     const mask shared = bright(light) & NOT(first);
@@ -116,8 +116,8 @@ INLINE void surface_light(const PathWorld* world, const ShadingPoint* point, con
         const real cosine = -dot3(&rays->direction, &point->surface.normal);
         LightProbabilities probabilities;
         find_shares(world, &rays->origin, &probabilities);
-        const real other =
-            probabilities.near * triangle_pdf(&world->lights, &rays->origin, hits->instance, hits->primitive, hits->t, cosine);
+        const real other = probabilities.near * triangle_pdf(&world->lights, &rays->origin, hits->instance,
+                                                             hits->primitive, hits->t, cosine);
 #if STRATEGY == 0
         scale3(CHOOSE(shared, power_heuristic(pdf, other), (real)(1.0f)), light);
 #else
@@ -148,20 +148,23 @@ INLINE mask may_shine(const SceneArrays* scene, const Hits* hits) {
 
 #if NEXT_EVENT
 /// Shadow rays and the light that they stand for, chosen by u and v (see sample_light). Returns where there is one.
-INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, real v, real low_bits, Rays* rays, Vector* light) {
+INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, real v, real low_bits, Rays* rays,
+                       Vector* light) {
     LightProbabilities probabilities;
     find_shares(world, &vertex->origin, &probabilities);
     LightSample sample;
 #if LIGHTS
-    sample_light(&world->scene, &world->lights, &probabilities, &vertex->origin, u - probabilities.environment, v, low_bits, &sample);
+    sample_light(&world->scene, &world->lights, &probabilities, &vertex->origin, u - probabilities.environment, v,
+                 low_bits, &sample);
 #else
     (void)low_bits;
 #endif
 #if SAMPLE_ENVIRONMENT
     const mask distant = (u < probabilities.environment) | (mask)(LIGHTS ? 0 : -1);
     LightSample sky;
-    sample_environment(&world->environment, &vertex->point.normal, smaller(u / probabilities.environment, (real)(BEFORE_ONE)), v,
-                       &sky.direction, &sky.value, &sky.pdf);
+    sample_environment(&world->environment, &vertex->point.normal,
+                       smaller(u / probabilities.environment, (real)(BEFORE_ONE)), v, &sky.direction, &sky.value,
+                       &sky.pdf);
     sky.pdf *= probabilities.environment;
     scale3(1.0f / sky.pdf, &sky.value);
 #if LIGHTS
@@ -196,7 +199,8 @@ INLINE mask next_event(const PathWorld* world, const Vertex* vertex, real u, rea
 }
 #endif
 
-/// The next rays of paths, and what they do to their states; false where the path ends. `width`: of the beams at the vertices.
+/// The next rays of paths, and what they do to their states; false where the path ends. `width`: of the beams at the
+/// vertices.
 INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, const Sampler* sampler, whole dimension,
                           real choice, real width, Paths* paths, Rays* rays) {
     Vector wi, value, direction;
@@ -209,12 +213,12 @@ INLINE mask scatter_paths(const Vertex* vertex, const PathSettings* settings, co
     scale3(1.0f / pdf, &value);
     multiply3(&paths->throughput, &value, &paths->throughput);
     const real largest = larger(larger(paths->throughput.x, paths->throughput.y), paths->throughput.z);
-    mask goes_on = (pdf > 0.0f) & leads_away(vertex, &direction) & (largest > 0.0f) &
-                   usable(&paths->throughput);
+    mask goes_on = (pdf > 0.0f) & leads_away(vertex, &direction) & (largest > 0.0f) & usable(&paths->throughput);
     paths->bounces += 1;
     const mask at_risk = goes_on & (paths->bounces >= ROULETTE_BOUNCE) & (largest < 1.0f);
     if (ANY(at_risk)) {
-        // A multiple of the spacing of samples, so that it is the probability to survive; and not so small that few carry much.
+        // A multiple of the spacing of samples, so that it is the probability to survive; and not so small that few
+        // carry much.
         const real survival = larger(ceil(largest * 0x1p24f) * 0x1p-24f, (real)(0x1p-4f));
         sample_square(sampler, dimension + ROULETTE_DIMENSION, &u, &v);
         goes_on &= NOT(at_risk & (u >= survival));

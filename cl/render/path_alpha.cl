@@ -30,13 +30,15 @@ INLINE float russian_roulette(float fraction, ulong seed, uint pixel, uint sampl
     return (float)(random_bits(key, layer) >> 40) * 0x1p-24f < fraction ? 1.0f : 0.0f;
 }
 
-/// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of which
-/// there is at most one each, and those whose light passes their surface are moved to the front of their slice to go on behind
-/// it. `layer` is how many surfaces they have passed, `round` what else tells rays of one sample of a pixel apart. A slice is `length`
-/// consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows(
-    SCENE_PARAMETERS, ulong seed, uint sample, uint first_pixel, uint round, uint layer, global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
-    global ShadowLight* lights, global uint* kept, global float* direct, global float* indirect) {
+/// Of the `count` shadow rays, hits[i] being what ray i met, those that met nothing add their light to their pixel, of
+/// which there is at most one each, and those whose light passes their surface are moved to the front of their slice to
+/// go on behind it. `layer` is how many surfaces they have passed, `round` what else tells rays of one sample of a
+/// pixel apart. A slice is `length` consecutive ones; kept[slice] is how many go on, and kept[slices] = 0. No barrier:
+/// work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void pass_shadows(SCENE_PARAMETERS, ulong seed, uint sample, uint first_pixel, uint round, uint layer,
+                  global const Hit* hits, uint count, uint length, uint slices, global Ray* rays,
+                  global ShadowLight* lights, global uint* kept, global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const SceneArrays scene = SCENE_ARRAYS;
@@ -52,7 +54,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void pass_shadows
         }
         float passed = passed_fraction(&scene, hit);
         if (layer >= BOXWOOD_SURE_LAYERS)
-            passed = russian_roulette(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
+            passed =
+                russian_roulette(passed, seed, first_pixel + (light.pixel & ~BOXWOOD_INDIRECT), sample, round, layer);
         if (!(passed > 0.0f)) continue;
         vstore3(vload3(0, light.value) * passed, 0, light.value);
         Ray ray = rays[i];

@@ -12,12 +12,11 @@
 #error "define GROUP_SIZE and RECORD"
 #endif
 
-/// Adds the light of each shadow ray that met nothing (blocked[i] is 0) to its pixel; a pixel has at most one. A work-item
-/// treats `length` consecutive ones of the `count`. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void add_unblocked(global const uint* blocked,
-                                                                                  global const ShadowLight* lights, uint count,
-                                                                                  uint length, global float* direct,
-                                                                                  global float* indirect) {
+/// Adds the light of each shadow ray that met nothing (blocked[i] is 0) to its pixel; a pixel has at most one. A
+/// work-item treats `length` consecutive ones of the `count`. No barrier: work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void add_unblocked(global const uint* blocked, global const ShadowLight* lights, uint count, uint length,
+                   global float* direct, global float* indirect) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
@@ -25,11 +24,12 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void add_unblocke
     }
 }
 
-/// The rays and records at the front of each slice of `length`, kept[slice] of them, go to places before[slice] on. Input and
-/// output do not overlap. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void move_kept(
-    global const Ray* restrict rays, global const RECORD* restrict records, global const uint* before, global const uint* kept,
-    uint length, uint slices, global Ray* restrict out_rays, global RECORD* restrict out_records) {
+/// The rays and records at the front of each slice of `length`, kept[slice] of them, go to places before[slice] on.
+/// Input and output do not overlap. No barrier: work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void move_kept(global const Ray* restrict rays, global const RECORD* restrict records, global const uint* before,
+               global const uint* kept, uint length, uint slices, global Ray* restrict out_rays,
+               global RECORD* restrict out_records) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const size_t from = (size_t)slice * length, to = before[slice];

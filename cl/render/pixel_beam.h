@@ -5,8 +5,8 @@
 #include "render/shading_point.h"
 #include "shared/camera.h"
 
-/// Where the camera's rays along `direction` meet surfaces at distances t, `fraction` of a pixel wide. The directions are between
-/// rays that are not normalised, so that the image plane lies along the camera's axis.
+/// Where the camera's rays along `direction` meet surfaces at distances t, `fraction` of a pixel wide. The directions
+/// are between rays that are not normalised, so that the image plane lies along the camera's axis.
 INLINE void pixel_beam(global const CameraRecord* camera, const Vector* direction, real t, float fraction, Beam* beam) {
     real width = 2.0f * fraction;
     Vector forward;

@@ -31,10 +31,10 @@ INLINE uint lower_bound(global const uint* keys, uint count, uint key) {
     return low;
 }
 
-/// Puts the triangle into the pixel of `ray` if it is there and nearest. Triangles come in ascending order, so that of equal distances
-/// the first is kept, as in traversal.
-INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place, const SceneSphere* sphere,
-                       global const Ray* ray, global Hit* hit) {
+/// Puts the triangle into the pixel of `ray` if it is there and nearest. Triangles come in ascending order, so that of
+/// equal distances the first is kept, as in traversal.
+INLINE void draw_pixel(global const ScreenTriangle* triangle, global const InstanceRecord* place,
+                       const SceneSphere* sphere, global const Ray* ray, global Hit* hit) {
     LocalRay local_ray;
     Units units;
     float t_min, t_max;
@@ -57,9 +57,10 @@ INLINE void draw_pixel(global const ScreenTriangle* triangle, global const Insta
 }
 
 /// The pixels of a triangle in the rows and columns given.
-INLINE void draw_triangle(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
-                          global const InstanceRecord* place, const SceneSphere* sphere, int left, int right, int top,
-                          int bottom, global const Ray* rays, global Hit* hits) {
+INLINE void draw_triangle(global const CameraRecord* camera, const Window* window,
+                          global const ScreenTriangle* triangle, global const InstanceRecord* place,
+                          const SceneSphere* sphere, int left, int right, int top, int bottom, global const Ray* rays,
+                          global Hit* hits) {
     Edges edges;
     make_edges(triangle, (float)window->width, (float)camera->height, &edges);
     const float3 e0 = edges.edge[0], e1 = edges.edge[1], e2 = edges.edge[2];
@@ -82,20 +83,22 @@ INLINE void draw_triangle(global const CameraRecord* camera, const Window* windo
 }
 
 /// hits[i] = a miss, for the `length` of the `count` of a work-item.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void clear_hits(uint count, uint length, global Hit* hits) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void clear_hits(uint count, uint length, global Hit* hits) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     const Hit miss = {INFINITY, 0.0f, 0.0f, BOXWOOD_NONE, BOXWOOD_NONE};
     for (ulong i = begin; i < end; ++i) hits[i] = miss;
 }
 
-/// Draws the triangles of a batch over what `hits`, one for each of `rays`, holds already of lower triangles. A work-item draws a
-/// tile, so that a pixel has one writer and needs no barrier: the pairs whose key is the tile, ascending in `keys` as the
-/// triangles in `values` are for equal keys.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-draw_tiles(global const CameraRecord* camera, global const InstanceRecord* instances,
-           global const ScreenTriangle* triangles, global const uint* keys, global const uint* values, uint pairs, uint tiles,
-           uint first_pixel, global const Ray* rays, uint pixel_count, SceneSphere sphere, global Hit* hits) {
+/// Draws the triangles of a batch over what `hits`, one for each of `rays`, holds already of lower triangles. A
+/// work-item draws a tile, so that a pixel has one writer and needs no barrier: the pairs whose key is the tile,
+/// ascending in `keys` as the triangles in `values` are for equal keys.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void draw_tiles(global const CameraRecord* camera, global const InstanceRecord* instances,
+                global const ScreenTriangle* triangles, global const uint* keys, global const uint* values, uint pairs,
+                uint tiles, uint first_pixel, global const Ray* rays, uint pixel_count, SceneSphere sphere,
+                global Hit* hits) {
     const uint tile = (uint)get_global_id(0);
     if (tile >= tiles) return;
     Window window;

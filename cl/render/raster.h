@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Triangles on the screen as three edge functions in homogeneous coordinates (Olano and Greer 1997): those that cross the plane
-// of the eye need no clipping.
+// Triangles on the screen as three edge functions in homogeneous coordinates (Olano and Greer 1997): those that cross
+// the plane of the eye need no clipping.
 #ifndef BOXWOOD_RENDER_RASTER_H
 #define BOXWOOD_RENDER_RASTER_H
 #include "render/pixel_offset.h"
 #include "runtime/products.h"
 #include "shared/raster.h"
 
-// Pixels are looked at when they are this close outside of an edge, relative to the magnitudes that meet in its function, so
-// that no pixel is left out that the ray test, which rounds in its own way, gives to the triangle: eight times the rounding of
-// the function (3u for its coefficients, 2u for its value, u = 2^-24) and of the corners (3u).
+// Pixels are looked at when they are this close outside of an edge, relative to the magnitudes that meet in its
+// function, so that no pixel is left out that the ray test, which rounds in its own way, gives to the triangle: eight
+// times the rounding of the function (3u for its coefficients, 2u for its value, u = 2^-24) and of the corners (3u).
 #define EDGE_SLACK 0x1p-18f
-// The corners' own roundings and those of the ray test, 8u of what meets in the products of a function's coefficients: they
-// cancel where a triangle is seen nearly edge-on, such as a floor close under the eye.
+// The corners' own roundings and those of the ray test, 8u of what meets in the products of a function's coefficients:
+// they cancel where a triangle is seen nearly edge-on, such as a floor close under the eye.
 #define CORNER_SLACK 0x1p-21f
 
 /// a b - c d, off by at most 1.5 units in the last place, so that its sign is exact (Kahan; Jeannerod et al. 2013).
@@ -59,8 +59,8 @@ INLINE void make_eye(global const CameraRecord* camera, Eye* eye) {
 
 INLINE float along(float3 v, float3 axis) { return fma(v.x, axis.x, fma(v.y, axis.y, v.z * axis.z)); }
 
-/// A vertex placed by `rows` as the eye sees it. The origins are subtracted first, which far from the world's origin keeps what
-/// is left. A vertex gives the same in every triangle.
+/// A vertex placed by `rows` as the eye sees it. The origins are subtracted first, which far from the world's origin
+/// keeps what is left. A vertex gives the same in every triangle.
 INLINE float3 seen_from(const Eye* eye, global const float* rows, float3 p) {
     const float3 from_eye =
         (float3)(fma(rows[0], p.x, fma(rows[1], p.y, fma(rows[2], p.z, rows[3] - eye->origin.x))),
@@ -79,11 +79,12 @@ INLINE void bound_ratio(float a, float b, float c, float wa, float wb, float wc,
 /// All of the triangle beyond the line that goes through the eye and `limit`.
 INLINE bool all_beyond(float limit, float a, float b, float c, float wa, float wb, float wc) {
     const float margin = EDGE_SLACK * fabs(limit);
-    return a > limit * wa + margin * fabs(wa) && b > limit * wb + margin * fabs(wb) && c > limit * wc + margin * fabs(wc);
+    return a > limit * wa + margin * fabs(wa) && b > limit * wb + margin * fabs(wb) &&
+           c > limit * wc + margin * fabs(wc);
 }
 
-/// The pixels from *first to *last of `count` whose offsets 2 i + 1 - count + jitter are from `low` to `high`, or a little
-/// outside.
+/// The pixels from *first to *last of `count` whose offsets 2 i + 1 - count + jitter are from `low` to `high`, or a
+/// little outside.
 INLINE void pixels_between(float low, float high, int count, float jitter, int* first, int* last) {
     const float middle = (float)(count - 1) - jitter, margin = 2.0f * EDGE_SLACK * (float)count;
     const float most = (float)count;
@@ -128,7 +129,8 @@ INLINE bool place_on_screen(global const CameraRecord* camera, const Window* win
         largest = fmax(largest, fmax(fmax(fabs(x[i]), fabs(y[i])), fabs(w[i])));
         if (!(fabs(x[i]) <= 0x1p120f && fabs(y[i]) <= 0x1p120f && fabs(w[i]) <= 0x1p120f)) return false;
     }
-    // A power of two, the largest coordinate's, so that products of two neither overflow nor, of all but nothing, underflow.
+    // A power of two, the largest coordinate's, so that products of two neither overflow nor, of all but nothing,
+    // underflow.
     const float scale = as_float((254u - clamp(as_uint(largest) >> 23, 1u, 253u)) << 23);
     for (int i = 0; i < 3; ++i) {
         triangle->corners[i][0] = x[i] * scale;
@@ -148,9 +150,9 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
     for (int i = 0; i < 3; ++i) {
         global const float* a = triangle->corners[(i + 1) % 3];
         global const float* b = triangle->corners[(i + 2) % 3];
-        const float3 edge = (float3)(difference_of_products(a[1], b[2], a[2], b[1]),
-                                     difference_of_products(a[2], b[0], a[0], b[2]),
-                                     difference_of_products(a[0], b[1], a[1], b[0]));
+        const float3 edge =
+            (float3)(difference_of_products(a[1], b[2], a[2], b[1]), difference_of_products(a[2], b[0], a[0], b[2]),
+                     difference_of_products(a[0], b[1], a[1], b[0]));
         edges->edge[i] = edge;
         const float across = fabs(a[1] * b[2]) + fabs(a[2] * b[1]), upward = fabs(a[2] * b[0]) + fabs(a[0] * b[2]);
         edges->slack[i] = EDGE_SLACK * (fabs(edge.x) * width + fabs(edge.y) * height + fabs(edge.z)) +
@@ -158,7 +160,8 @@ INLINE void make_edges(global const ScreenTriangle* triangle, float width, float
     }
 }
 
-/// Whether the rectangle of offsets around (x, y), `reach_x` and `reach_y` to each side, may have a pixel of the triangle.
+/// Whether the rectangle of offsets around (x, y), `reach_x` and `reach_y` to each side, may have a pixel of the
+/// triangle.
 INLINE bool may_touch(const Edges* edges, float x, float y, float reach_x, float reach_y) {
     bool positive = true, negative = true;
     for (int i = 0; i < 3; ++i) {

@@ -19,7 +19,8 @@
 INLINE uint tiles_of(global const CameraRecord* camera, const Window* window, global const ScreenTriangle* triangle,
                      global uint* keys) {
     const int left = triangle->left / BOXWOOD_TILE, right = triangle->right / BOXWOOD_TILE;
-    const int top = (triangle->top - window->top) / BOXWOOD_TILE, bottom = (triangle->bottom - window->top) / BOXWOOD_TILE;
+    const int top = (triangle->top - window->top) / BOXWOOD_TILE,
+              bottom = (triangle->bottom - window->top) / BOXWOOD_TILE;
     uint count = 0;
     Edges edges;
     const bool one = left == right && top == bottom;
@@ -36,14 +37,14 @@ INLINE uint tiles_of(global const CameraRecord* camera, const Window* window, gl
     return count;
 }
 
-/// out[i] = placed triangle first_placed + i, and tiles[i] the number of its tiles, for the `count` of a batch; out[i] is
-/// undefined where that is 0, and tiles[count] is 0. Placed triangles count through the instances, first_triangles of them before
-/// each. A work-item takes `length` consecutive ones; no barrier, work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-setup_triangles(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-                global const InstanceRecord* instances, global const uint* first_triangles, uint instance_count,
-                global const CameraRecord* camera, uint first_pixel, uint pixel_count, uint first_placed, uint count,
-                uint length, global ScreenTriangle* out, global ulong* tiles) {
+/// out[i] = placed triangle first_placed + i, and tiles[i] the number of its tiles, for the `count` of a batch; out[i]
+/// is undefined where that is 0, and tiles[count] is 0. Placed triangles count through the instances, first_triangles
+/// of them before each. A work-item takes `length` consecutive ones; no barrier, work-items share nothing.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void setup_triangles(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                     global const InstanceRecord* instances, global const uint* first_triangles, uint instance_count,
+                     global const CameraRecord* camera, uint first_pixel, uint pixel_count, uint first_placed,
+                     uint count, uint length, global ScreenTriangle* out, global ulong* tiles) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     if (begin >= end) return;
@@ -80,9 +81,10 @@ setup_triangles(global const float* positions, global const uint* triangles, glo
 }
 
 /// The pairs of the `count` triangles, from offsets[i] on for triangle i: keys are tiles, values triangles.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-list_tiles(global const CameraRecord* camera, uint first_pixel, uint pixel_count, global const ScreenTriangle* triangles,
-           global const ulong* offsets, uint count, uint length, global uint* keys, global uint* values) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void list_tiles(global const CameraRecord* camera, uint first_pixel, uint pixel_count,
+                global const ScreenTriangle* triangles, global const ulong* offsets, uint count, uint length,
+                global uint* keys, global uint* values) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     Window window;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Points for the integrals of a path: dimension by dimension and sample by sample, each in constant time from (seed, pixel,
-// sample, dimension), so that any order and any device gives the same.
+// Points for the integrals of a path: dimension by dimension and sample by sample, each in constant time from (seed,
+// pixel, sample, dimension), so that any order and any device gives the same.
 //
 // SAMPLER  0 random: independent points. 1 stratified: one point in each cell of a grid over all samples of a pixel
-//          (dissertation 3.7.4, after Pharr 2019), the cells in an order of their own for each pixel and dimension. 2 sobol: the
-//          first two dimensions of Sobol's sequence with hashed Owen scrambling and shuffling for each pixel and dimension
-//          (Burley 2020).
+//          (dissertation 3.7.4, after Pharr 2019), the cells in an order of their own for each pixel and dimension. 2
+//          sobol: the first two dimensions of Sobol's sequence with hashed Owen scrambling and shuffling for each pixel
+//          and dimension (Burley 2020).
 #ifndef BOXWOOD_RENDER_SAMPLER_H
 #define BOXWOOD_RENDER_SAMPLER_H
 #include "render/random.h"
@@ -38,8 +38,8 @@ INLINE whole reverse_bits(whole x) {
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
 }
 
-/// A permutation of 32 bits in which a bit depends on itself and on lower ones alone: Owen's scrambling of digits that are
-/// given last one first, by the hash of Laine and Karras 2011 with the constants of Vegdahl.
+/// A permutation of 32 bits in which a bit depends on itself and on lower ones alone: Owen's scrambling of digits that
+/// are given last one first, by the hash of Laine and Karras 2011 with the constants of Vegdahl.
 INLINE whole scramble_reversed(whole x, whole seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -56,8 +56,9 @@ INLINE whole mix_word(whole x) {
     return x ^ (x >> 16);
 }
 
-/// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is the sum of
-/// the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a sum over supersets.
+/// Digits, last one first, of the second dimension of Sobol's sequence; those of the first are the index. Digit i is
+/// the sum of the bits j of the index for which binomial(j, i) is odd, which is when j has every bit of i (Lucas): a
+/// sum over supersets.
 INLINE whole sobol_second(whole index) {
     index ^= (index >> 1) & 0x55555555u;
     index ^= (index >> 2) & 0x33333333u;
@@ -66,8 +67,8 @@ INLINE whole sobol_second(whole index) {
     return index ^ (index >> 16);
 }
 
-/// The place of `index` in a permutation of [0, count) chosen by `seed` (Kensler 2013: rounds of a bijection on the next power
-/// of two, again while outside).
+/// The place of `index` in a permutation of [0, count) chosen by `seed` (Kensler 2013: rounds of a bijection on the
+/// next power of two, again while outside).
 INLINE whole permute(uint index, uint count, whole seed) {
     uint bits = count - 1;
     bits |= bits >> 1;
@@ -113,7 +114,8 @@ INLINE void sample_square(const Sampler* sampler, whole dimension, real* u, real
     *u = LESSER((TO_REAL(cell - row * columns) + *u) / (float)columns, (real)(BEFORE_ONE));
     *v = LESSER((TO_REAL(row) + *v) / (float)rows, (real)(BEFORE_ONE));
 #else
-    // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a net.
+    // Scrambled as a fraction, the index of a sample below 2^k stays in one aligned block of 2^k, whose points are a
+    // net.
     const whole reversed = reverse_bits((whole)(sampler->sample));
     const whole index = reverse_bits(scramble_reversed(reversed, TO_WHOLE(of_dimension)));
     const whole seed = TO_WHOLE(of_dimension >> 32);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shading reads of a scene, and the macros that say which of it there is (see ShadingRequirements). An array that no macro
-// asks for may be null.
+// What shading reads of a scene, and the macros that say which of it there is (see ShadingRequirements). An array that
+// no macro asks for may be null.
 //
 // TRANSFORMS see render/surface.h
 // MATERIALS  1: triangles name their materials; 0: all have the first
@@ -14,7 +14,8 @@
 #include "shared/instance.h"
 #include "shared/material.h"
 
-#if !defined(MATERIALS) || !defined(NORMALS) || !defined(TANGENTS) || !defined(UV_SETS) || !defined(COLORS) || !defined(TEXTURES)
+#if !defined(MATERIALS) || !defined(NORMALS) || !defined(TANGENTS) || !defined(UV_SETS) || !defined(COLORS) || \
+    !defined(TEXTURES)
 #error "define MATERIALS, NORMALS, TANGENTS, UV_SETS, COLORS and TEXTURES"
 #endif
 
@@ -43,8 +44,8 @@ typedef struct SceneArrays {
 } SceneArrays;
 
 // The parameters of a kernel that shades, and the SceneArrays of them.
-#define SCENE_PARAMETERS                                                                                                 \
-    global const float *positions, global const uint *triangles, global const MeshRange *meshes,                        \
+#define SCENE_PARAMETERS                                                                                               \
+    global const float *positions, global const uint *triangles, global const MeshRange *meshes,                       \
         global const InstanceRecord *instances, global const float *attributes, global const uint *triangle_materials, \
         global const MaterialRecord *materials, global const TextureRecord *textures, global const uint *texels
 #define SCENE_ARRAYS \

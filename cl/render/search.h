@@ -4,12 +4,13 @@
 #define BOXWOOD_RENDER_SEARCH_H
 #include "runtime/real.h"
 
-/// Chooses one of `count` > 0 elements in each lane, by row[lane] of the distributions of `count` + 1 values each, which ascend
-/// from 0 to 1: element i with the probability distribution[i + 1] - distribution[i]. `u` in [0, 1) becomes what is left of it,
-/// uniform in [0, 1) again. O(log count). Any u, even NaN, gives an element.
-INLINE void choose(global const float* distributions, uint count, const uint* row, real* u, uint* index, real* probability) {
-    // Which way it goes cannot be foreseen: no branch. Floats that are not negative compare as their bits do, and these are at
-    // most those of 1, so that the difference has the sign.
+/// Chooses one of `count` > 0 elements in each lane, by row[lane] of the distributions of `count` + 1 values each,
+/// which ascend from 0 to 1: element i with the probability distribution[i + 1] - distribution[i]. `u` in [0, 1)
+/// becomes what is left of it, uniform in [0, 1) again. O(log count). Any u, even NaN, gives an element.
+INLINE void choose(global const float* distributions, uint count, const uint* row, real* u, uint* index,
+                   real* probability) {
+    // Which way it goes cannot be foreseen: no branch. Floats that are not negative compare as their bits do, and these
+    // are at most those of 1, so that the difference has the sign.
     int bits[LANES];
     STORE_LANES(AS_INT(*u), bits);
     global const float* start[LANES];

@@ -55,10 +55,10 @@ INLINE bool surface_at(global const float* positions, global const uint* triangl
 /// out[i] = a ray from the point of hits[i] into a cosine-distributed direction on the side that rays[i] came from, or
 /// a null ray for a miss. A work-item makes `length` consecutive rays of the `count`; all ray arrays have `count`
 /// elements, the others are those of a Geometry. `out` is neither of the inputs. No barrier: work-items share nothing.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-diffuse_rays(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-             global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
-             uint length, ulong seed, global Ray* out) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void diffuse_rays(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                  global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
+                  uint length, ulong seed, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
@@ -79,10 +79,10 @@ diffuse_rays(global const float* positions, global const uint* triangles, global
 
 /// out[i] = the segment from the point of hits[i] to the light, the light itself left out, or a null ray for a miss.
 /// As above otherwise.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-shadow_rays(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-            global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
-            uint length, float light_x, float light_y, float light_z, global Ray* out) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void shadow_rays(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                 global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, uint count,
+                 uint length, float light_x, float light_y, float light_z, global Ray* out) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The surfaces that rays met as shading sees them, one per lane: interpolated attributes of the vertices and the material at
-// that point (dissertation 3.7.6). Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
+// The surfaces that rays met as shading sees them, one per lane: interpolated attributes of the vertices and the
+// material at that point (dissertation 3.7.6). Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
 #ifndef BOXWOOD_RENDER_SHADING_POINT_H
 #define BOXWOOD_RENDER_SHADING_POINT_H
 #include "render/spot.h"
@@ -9,7 +9,7 @@
 /// Surfaces and their materials. Everything is finite, colours are linear and not negative.
 typedef struct ShadingPoint {
     Surface surface;
-    Vector normal;     ///< For shading: normalised, on the side that the ray came from, never turned away from it.
+    Vector normal; ///< For shading: normalised, on the side that the ray came from, never turned away from it.
 #if NORMALS
     Vector smooth; ///< That of the vertices alone, on the same side; of another length.
     Vector lift;   ///< From the triangle to the smooth surface that it stands for; see smooth_lift.
@@ -24,15 +24,15 @@ typedef struct ShadingPoint {
     mask unlit;        ///< Shown as it is.
 } ShadingPoint;
 
-/// Cross-section of the beam that a ray stands for, where it meets the surface: two vectors from one side of the beam to the
-/// other, for a pixel those to its neighbours (Igehy 1999). Read for textures only.
+/// Cross-section of the beam that a ray stands for, where it meets the surface: two vectors from one side of the beam
+/// to the other, for a pixel those to its neighbours (Igehy 1999). Read for textures only.
 typedef struct Beam {
     Vector x, y;
-    /// Emission and alpha are read as under a beam without width: lights and shadow rays read them so, and what both find must be
-    /// the same. (Cut-outs have another size when they are filtered.)
+    /// Emission and alpha are read as under a beam without width: lights and shadow rays read them so, and what both
+    /// find must be the same. (Cut-outs have another size when they are filtered.)
     mask exact_light;
-    /// Textures are filtered along both axes, if the filter is: for what is seen as a picture, by the camera or in a mirror. Other
-    /// beams are wide anyway, and averaged.
+    /// Textures are filtered along both axes, if the filter is: for what is seen as a picture, by the camera or in a
+    /// mirror. Other beams are wide anyway, and averaged.
     mask sharp;
 } Beam;
 
@@ -47,8 +47,8 @@ INLINE void material_numbers(const SceneArrays* scene, const Triangles* triangle
 }
 
 #if UV_SETS
-/// How the weights of the second and third vertex change along `v`, by its projection along the ray's direction onto the
-/// triangle. Everything in object space, and in a measure in which the edges are near 1.
+/// How the weights of the second and third vertex change along `v`, by its projection along the ray's direction onto
+/// the triangle. Everything in object space, and in a measure in which the edges are near 1.
 INLINE void weight_change(const Vector* edge1, const Vector* edge2, const Vector* normal, const Vector* direction,
                           const Vector* v, float change[2][LANES]) {
     Vector on_plane = *v, across;
@@ -103,7 +103,8 @@ INLINE void find_spots(const Triangles* triangles, const uint* material, const V
     STORE_LANES(beam->sharp, sharp);
 #endif
     for (uint lane = 0; lane < LANES; ++lane) {
-        spots[lane].corner = (uint3)(triangles->corner[0][lane], triangles->corner[1][lane], triangles->corner[2][lane]);
+        spots[lane].corner =
+            (uint3)(triangles->corner[0][lane], triangles->corner[1][lane], triangles->corner[2][lane]);
         spots[lane].weight = (float3)(1.0f - u[lane] - v[lane], u[lane], v[lane]);
         spots[lane].material = material[lane];
 #if UV_SETS
@@ -131,10 +132,10 @@ INLINE void interpolate_direction(const SceneArrays* scene, const Triangles* tri
     normalise_any3(direction);
 }
 
-/// The normals that vertices say: `object` in object space, of the triangles where they say none; `world` in world space, of
-/// another length. Returns 1, or -1 where that is not on the ray's side.
-INLINE real vertex_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, const Surface* surface,
-                          Vector* object, Vector* world) {
+/// The normals that vertices say: `object` in object space, of the triangles where they say none; `world` in world
+/// space, of another length. Returns 1, or -1 where that is not on the ray's side.
+INLINE real vertex_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits,
+                          const Surface* surface, Vector* object, Vector* world) {
     Vector flat;
     interpolate_direction(scene, triangles, hits, NORMAL_AT, object);
     object_normal(triangles, &flat);
@@ -144,15 +145,17 @@ INLINE real vertex_normal(const SceneArrays* scene, const Triangles* triangles, 
     return CHOOSE(dot3(world, &surface->normal) < 0.0f, (real)(-1.0f), (real)(1.0f));
 }
 
-// Cosine of the angle between a triangle and the normals of its vertices from which on these are no smooth surface's, but an edge's
-// or made to shade foliage.
+// Cosine of the angle between a triangle and the normals of its vertices from which on these are no smooth surface's,
+// but an edge's or made to shade foliage.
 #define LEAST_SMOOTH 0x1.6a09e6p-1f
 
-/// From the points of triangles to the smooth surface that their vertices' normals stand for, in world space: rays that start there
-/// see the light that those normals promise, where the triangle itself is turned away from it (Hanika 2021, "Hacking the Shadow
-/// Terminator"). A point is moved onto the tangent planes of the vertices that it is below, by their weights; planes stay planes,
-/// so that the space does not matter. `side` as from vertex_normal. Zero where the surface is hollow.
-INLINE void smooth_lift(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, real side, Vector* lift) {
+/// From the points of triangles to the smooth surface that their vertices' normals stand for, in world space: rays that
+/// start there see the light that those normals promise, where the triangle itself is turned away from it (Hanika 2021,
+/// "Hacking the Shadow Terminator"). A point is moved onto the tangent planes of the vertices that it is below, by
+/// their weights; planes stay planes, so that the space does not matter. `side` as from vertex_normal. Zero where the
+/// surface is hollow.
+INLINE void smooth_lift(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, real side,
+                        Vector* lift) {
     const real zero = 0.0f;
     const real weight[3] = {1.0f - hits->u - hits->v, hits->u, hits->v};
     Vector flat, sum = {zero, zero, zero};
@@ -210,8 +213,8 @@ INLINE void bend_normal(const SceneArrays* scene, const Triangles* triangles, co
 }
 #endif
 
-/// The normals for shading, from vertices and normal textures, in world space and normalised, or those of the triangles where
-/// those are zero. `view` goes along the rays.
+/// The normals for shading, from vertices and normal textures, in world space and normalised, or those of the triangles
+/// where those are zero. `view` goes along the rays.
 INLINE void shading_normal(const SceneArrays* scene, const Triangles* triangles, const Hits* hits, const Spot* spots,
                            const Surface* surface, const Vector* view, Vector* normal) {
     *normal = surface->normal;
@@ -281,7 +284,8 @@ INLINE void apply_textures(const SceneArrays* scene, const Spot* spots, ShadingP
     const Vector emission = {LOAD_LANES(texel[0]), LOAD_LANES(texel[1]), LOAD_LANES(texel[2])};
     multiply3(&emission, &point->emission, &point->emission);
     textures_at(scene, spots, BOXWOOD_OCCLUSION, texel);
-    for (uint lane = 0; lane < LANES; ++lane) strength[lane] = scene->materials[spots[lane].material].occlusion_strength;
+    for (uint lane = 0; lane < LANES; ++lane)
+        strength[lane] = scene->materials[spots[lane].material].occlusion_strength;
     point->occlusion = 1.0f + LOAD_LANES(strength) * (LOAD_LANES(texel[0]) - 1.0f);
 }
 #endif
@@ -301,7 +305,8 @@ INLINE void colors_at(const SceneArrays* scene, const Spot* spots, Vector* resul
 }
 
 /// Base colour with alpha as textures, vertices and the alpha mode make them.
-INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* material, whole flags, ShadingPoint* point) {
+INLINE void find_color(const SceneArrays* scene, const Spot* spots, const uint* material, whole flags,
+                       ShadingPoint* point) {
     float alpha[LANES];
     STORE_LANES(point->alpha, alpha);
 #if TEXTURES || COLORS

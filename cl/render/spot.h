@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One place on one triangle, and what attributes and textures say there (dissertation 3.7.6): texture by texture, not in lanes.
+// One place on one triangle, and what attributes and textures say there (dissertation 3.7.6): texture by texture, not
+// in lanes.
 // Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
 #ifndef BOXWOOD_RENDER_SPOT_H
 #define BOXWOOD_RENDER_SPOT_H

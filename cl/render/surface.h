@@ -27,10 +27,10 @@ typedef struct Hits {
 
 /// Triangles that were met, one per lane.
 typedef struct Triangles {
-    uint number[LANES];               ///< In the arrays of all meshes.
-    uint corner[3][LANES];            ///< Vertices.
-    Vector first, edge1, edge2;       ///< Object space.
-    Vector largest;                   ///< The largest magnitudes of the vertices.
+    uint number[LANES];         ///< In the arrays of all meshes.
+    uint corner[3][LANES];      ///< Vertices.
+    Vector first, edge1, edge2; ///< Object space.
+    Vector largest;             ///< The largest magnitudes of the vertices.
 #if TRANSFORMS
     real to_object[12], to_world[12]; ///< Of the instance.
 #endif
@@ -39,8 +39,8 @@ typedef struct Triangles {
 /// Hit points in world space, one per lane.
 typedef struct Surface {
     Vector point;
-    Vector normal; ///< Geometric, normalised, on the side that the ray came from. Zero for a triangle without area.
-    mask front; ///< The ray met the side from which the vertices go around counter-clockwise, in object space.
+    Vector normal;  ///< Geometric, normalised, on the side that the ray came from. Zero for a triangle without area.
+    mask front;     ///< The ray met the side from which the vertices go around counter-clockwise, in object space.
     real clearance; ///< Distance along the normal that carries an origin off the triangle (see surface_clearance).
 } Surface;
 
@@ -70,8 +70,8 @@ INLINE void null_rays(Rays* rays) {
     *rays = none;
 }
 
-/// The same where `condition` holds. The rays have values before: compilers take a path on which select() is handed what has
-/// none for one that is never taken.
+/// The same where `condition` holds. The rays have values before: compilers take a path on which select() is handed
+/// what has none for one that is never taken.
 INLINE void clear_rays(mask condition, Rays* rays) {
     const real zero = 0.0f;
     const Vector none = {zero, zero, zero};
@@ -146,9 +146,10 @@ INLINE void rotate_rows(const real* rows, const Vector* v, Vector* result) {
 
 /// The same of magnitudes: bounds of those that meet in it.
 INLINE void bound_rows(const real* rows, const Vector* magnitude, Vector* result) {
-    const Vector r = {fma(fabs(rows[0]), magnitude->x, fma(fabs(rows[1]), magnitude->y, fabs(rows[2]) * magnitude->z)),
-                      fma(fabs(rows[4]), magnitude->x, fma(fabs(rows[5]), magnitude->y, fabs(rows[6]) * magnitude->z)),
-                      fma(fabs(rows[8]), magnitude->x, fma(fabs(rows[9]), magnitude->y, fabs(rows[10]) * magnitude->z))};
+    const Vector r = {
+        fma(fabs(rows[0]), magnitude->x, fma(fabs(rows[1]), magnitude->y, fabs(rows[2]) * magnitude->z)),
+        fma(fabs(rows[4]), magnitude->x, fma(fabs(rows[5]), magnitude->y, fabs(rows[6]) * magnitude->z)),
+        fma(fabs(rows[8]), magnitude->x, fma(fabs(rows[9]), magnitude->y, fabs(rows[10]) * magnitude->z))};
     *result = r;
 }
 #endif
@@ -198,8 +199,8 @@ INLINE void normal_to_world(const Triangles* triangles, const Vector* n, Vector*
 #endif
 }
 
-/// Bounds of the magnitudes that meet on the way of a vertex to a point in world space, and from there back to object space, as
-/// seen from the world.
+/// Bounds of the magnitudes that meet on the way of a vertex to a point in world space, and from there back to object
+/// space, as seen from the world.
 INLINE void bound_way(const Triangles* triangles, Vector* there, Vector* back) {
 #if TRANSFORMS
     const real* to_world = triangles->to_world;
@@ -241,16 +242,17 @@ INLINE void object_normal(const Triangles* triangles, Vector* normal) {
 }
 
 /// How far along `normal` the point of a new ray is moved so that a traversal, which sees the triangle through its own
-/// roundings, finds it on the right side. With u = 2^-24, W = |to_world| largest the magnitudes that meet in a world point, and
-/// B = |to_world| (|to_object| W) those that meet on the way back to object space, seen from the world, the errors off the plane
-/// are at most
+/// roundings, finds it on the right side. With u = 2^-24, W = |to_world| largest the magnitudes that meet in a world
+/// point, and B = |to_world| (|to_object| W) those that meet on the way back to object space, seen from the world, the
+/// errors off the plane are at most
 ///     5 u W    the point from two barycentric products and two sums (edges are at most twice `largest`),
 ///     4 u W    its transform,  1 u W  the sum with the offset,
 ///     5 u B    transform of the origin by the rounded inverse,
 ///     8 u W    vertices rounded after flattening,
 ///    17 u D    the triangle test (traverse/ray_triangle.h), D being the triangle's longest extent, however thin it is.
-/// 32 u W + 5 u B + 20 u D are taken, by which the point leaves the padded box of the triangle too (bounds/triangle_box.h: 18 u D
-/// and 2 u W), so that a new ray does not test what it has just left. Scales with the scene.
+/// 32 u W + 5 u B + 20 u D are taken, by which the point leaves the padded box of the triangle too
+/// (bounds/triangle_box.h: 18 u D and 2 u W), so that a new ray does not test what it has just left. Scales with the
+/// scene.
 INLINE real surface_clearance(const Triangles* triangles, const Vector* normal) {
     Vector there, back;
     bound_way(triangles, &there, &back);

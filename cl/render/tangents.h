@@ -4,8 +4,8 @@
 #define BOXWOOD_RENDER_TANGENTS_H
 #include "runtime/vector.h"
 
-/// Two directions that with the normalised `n` are orthonormal, by Duff et al. 2017: without a branch, and without a loss of
-/// digits near any pole.
+/// Two directions that with the normalised `n` are orthonormal, by Duff et al. 2017: without a branch, and without a
+/// loss of digits near any pole.
 INLINE void tangents_of(const Vector* n, Vector* tangent, Vector* bitangent) {
     const real sign = copysign((real)(1.0f), n->z);
     const real a = -1.0f / (sign + n->z);

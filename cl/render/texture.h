@@ -2,9 +2,9 @@
 // Textures, filtered over the footprint of a beam (dissertation 3.7.6).
 //
 // WIDE_TEXELS  1 where some texture has 16 bits
-// FILTER  0 nearest texel, without levels of detail; 1 trilinear: the level whose texels are as wide as the footprint's longer
-//         axis, as for the cone of Akenine-Moller et al. 2019; 2 anisotropic: up to 16 trilinear taps along that axis, of the
-//         level for the shorter one (after McCormack et al. 1999); as 1 where it need not be sharp
+// FILTER  0 nearest texel, without levels of detail; 1 trilinear: the level whose texels are as wide as the footprint's
+//         longer axis, as for the cone of Akenine-Moller et al. 2019; 2 anisotropic: up to 16 trilinear taps along that
+//         axis, of the level for the shorter one (after McCormack et al. 1999); as 1 where it need not be sharp
 #ifndef BOXWOOD_RENDER_TEXTURE_H
 #define BOXWOOD_RENDER_TEXTURE_H
 #include "render/elementary.h"
@@ -27,7 +27,8 @@
 inline float4 decode_bytes(uint texel, uint format) {
     const uchar4 bytes = as_uchar4(texel);
     if (format & BOXWOOD_SRGB)
-        return (float4)(srgb_to_linear[bytes.x], srgb_to_linear[bytes.y], srgb_to_linear[bytes.z], (float)bytes.w / 255.0f);
+        return (float4)(srgb_to_linear[bytes.x], srgb_to_linear[bytes.y], srgb_to_linear[bytes.z],
+                        (float)bytes.w / 255.0f);
     return convert_float4(bytes) / 255.0f;
 }
 
@@ -42,8 +43,8 @@ inline float4 decode_wide(uint2 texel, uint format) {
 }
 #endif
 
-/// A texture coordinate brought to [0, 1]. The remainders are exact but for tiny negative coordinates, which give 1; what is not
-/// finite gives 0.
+/// A texture coordinate brought to [0, 1]. The remainders are exact but for tiny negative coordinates, which give 1;
+/// what is not finite gives 0.
 inline float wrap_coordinate(float x, uint wrap) {
     if (wrap == WRAP_REPEAT) {
         x -= floor(x);
@@ -142,11 +143,12 @@ inline void find_levels(global const TextureRecord* texture, global const uint* 
 inline float4 trilinear(global const TextureRecord* texture, const Levels* levels, float2 uv) {
     const float2 wrapped = wrap_coordinates(texture, uv);
     const float4 fine = bilinear(texture, &levels->fine, wrapped);
-    return levels->fraction > 0.0f ? mix_float4(fine, bilinear(texture, &levels->coarse, wrapped), levels->fraction) : fine;
+    return levels->fraction > 0.0f ? mix_float4(fine, bilinear(texture, &levels->coarse, wrapped), levels->fraction)
+                                   : fine;
 }
 
-/// The ellipse into which the two vectors take a circle as wide as they: its axes in texels of level 0, and the longer one as a
-/// difference of texture coordinates.
+/// The ellipse into which the two vectors take a circle as wide as they: its axes in texels of level 0, and the longer
+/// one as a difference of texture coordinates.
 typedef struct Footprint {
     float longer, shorter;
     float2 along;
@@ -181,8 +183,9 @@ inline void find_footprint(global const TextureRecord* texture, float2 along_x, 
 }
 #endif
 
-/// Linear colour and alpha at `uv`, over the parallelogram that `along_x` and `along_y`, the differences of uv across the beam,
-/// span; without `sharp` over a wider one. Any floats: coordinates that float cannot place within the picture read some texel of it.
+/// Linear colour and alpha at `uv`, over the parallelogram that `along_x` and `along_y`, the differences of uv across
+/// the beam, span; without `sharp` over a wider one. Any floats: coordinates that float cannot place within the picture
+/// read some texel of it.
 inline float4 sample_texture(global const TextureRecord* texture, global const uint* texels, float2 uv, float2 along_x,
                              float2 along_y, bool sharp) {
 #if FILTER == 0

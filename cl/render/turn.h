@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine of an azimuth that is drawn, and the angle of a direction: the built-in functions differ between devices, and
-// some take lane by lane. These give the same bits on every device.
+// Sine and cosine of an azimuth that is drawn, and the angle of a direction: the built-in functions differ between
+// devices, and some take lane by lane. These give the same bits on every device.
 #ifndef BOXWOOD_RENDER_TURN_H
 #define BOXWOOD_RENDER_TURN_H
 #include "runtime/real.h"
@@ -21,8 +21,8 @@ INLINE void sincos_turn(real turns, real* sine, real* cosine) {
     *cosine = AS_REAL(AS_INT(CHOOSE(turned, odd, even)) ^ (((quarter + 1) & 2) << 30));
 }
 
-/// The angle of (x, y), finite, from the x axis in half turns, in [-1, 1], to 1.7 units in the last place. Its sign is that of y;
-/// on the axes and at zeros it is that of atan2pi(), and exact.
+/// The angle of (x, y), finite, from the x axis in half turns, in [-1, 1], to 1.7 units in the last place. Its sign is
+/// that of y; on the axes and at zeros it is that of atan2pi(), and exact.
 INLINE real atan2_pi(real y, real x) {
     const real across = fabs(x), upward = fabs(y);
     const real longer = GREATER(across, upward), shorter = LESSER(across, upward);

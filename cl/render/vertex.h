@@ -50,7 +50,8 @@ INLINE void make_vertex(const Vector* direction, Vertex* vertex) {
     make_bsdf(&point->base_color, point->metallic, point->roughness, point->specular, &vertex->wo, &vertex->bsdf);
 }
 
-/// Whether directions lead away from surfaces: from triangles, or, where these stand for a smooth surface above, from that.
+/// Whether directions lead away from surfaces: from triangles, or, where these stand for a smooth surface above, from
+/// that.
 INLINE mask leads_away(const Vertex* vertex, const Vector* direction) {
     mask away = dot3(direction, &vertex->point.surface.normal) > 0.0f;
 #if NORMALS

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What primary rays met and cost, shown as light. A work-item writes `length` consecutive pixels of the `count`. No barriers: work-items
-// share nothing.
+// What primary rays met and cost, shown as light. A work-item writes `length` consecutive pixels of the `count`. No
+// barriers: work-items share nothing.
 //
 // GROUP_SIZE  work-items per work-group.
 // compile:
@@ -12,8 +12,9 @@
 #endif
 
 /// The volumes and the triangles tested for each ray.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-cost_planes(global const RayStatistics* statistics, uint count, uint length, global uint* volumes, global uint* primitives) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void cost_planes(global const RayStatistics* statistics, uint count, uint length, global uint* volumes,
+                 global uint* primitives) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {
@@ -23,16 +24,16 @@ cost_planes(global const RayStatistics* statistics, uint count, uint length, glo
 }
 
 /// light[3 * i] and the two behind it = the volumes tested for ray i.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-cost_light(global const RayStatistics* statistics, uint count, uint length, global float* light) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void cost_light(global const RayStatistics* statistics, uint count, uint length, global float* light) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) vstore3((float3)((float)statistics[i].volumes), i, light);
 }
 
 /// light[3 * i] and the two behind it, the normal at hits[i], become (1 + n) / 2, or 0 for a miss.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-normal_light(global const Hit* hits, uint count, uint length, global float* light) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void normal_light(global const Hit* hits, uint count, uint length, global float* light) {
     const ulong begin = (ulong)get_global_id(0) * length;
     const ulong end = min(begin + length, (ulong)count);
     for (ulong i = begin; i < end; ++i) {

@@ -5,9 +5,9 @@
 #ifndef BOXWOOD_RUNTIME_HANDOFF_H
 #define BOXWOOD_RUNTIME_HANDOFF_H
 
-// OpenCL C 3.0 has the ordering that is meant, where the device offers it (host/runtime/language.hpp). Under 1.2, which other
-// devices take, an atomic is relaxed, and the fences around it order this work-item's global accesses: what it wrote before one is
-// committed to memory before what comes after it (OpenCL C 1.2, 6.12.9).
+// OpenCL C 3.0 has the ordering that is meant, where the device offers it (host/runtime/language.hpp). Under 1.2, which
+// other devices take, an atomic is relaxed, and the fences around it order this work-item's global accesses: what it
+// wrote before one is committed to memory before what comes after it (OpenCL C 1.2, 6.12.9).
 #if __OPENCL_C_VERSION__ >= 300
 
 typedef atomic_uint handoff_t;

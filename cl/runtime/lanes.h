@@ -11,7 +11,8 @@
 #endif
 
 /// Bit i tells lane i of a mask of zeros and minus ones, as comparisons of vectors make them.
-/// Portably: one byte per lane, all ones where it holds, keeps one bit each, and a product adds them up in its top byte.
+/// Portably: one byte per lane, all ones where it holds, keeps one bit each, and a product adds them up in its top
+/// byte.
 INLINE uint lanes8_portable(int8 mask) {
     const ulong bytes = as_ulong(convert_char8(mask));
     return (uint)((bytes & 0x8040201008040201ul) * 0x0101010101010101ul >> 56);

@@ -6,8 +6,8 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Scalars or, lane by lane, vectors; one instruction on most devices. Where either is NaN the result is `b`. By select(),
-// not by ?:, whose lanes Oclgrind 21.10 takes wrong.
+// Scalars or, lane by lane, vectors; one instruction on most devices. Where either is NaN the result is `b`. By
+// select(), not by ?:, whose lanes Oclgrind 21.10 takes wrong.
 #define LESSER(a, b) select((b), (a), (a) < (b))
 #define GREATER(a, b) select((b), (a), (a) > (b))
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Asks for memory ahead of its use. OpenCL's own prefetch() does nothing on PoCL, so the compiler's builtin is taken where
-// code is made for a processor that has it; front ends that make SPIR-V accept it too, and then end in its translation.
-// Neither changes any result.
+// Asks for memory ahead of its use. OpenCL's own prefetch() does nothing on PoCL, so the compiler's builtin is taken
+// where code is made for a processor that has it; front ends that make SPIR-V accept it too, and then end in its
+// translation. Neither changes any result.
 #ifndef BOXWOOD_RUNTIME_PREFETCH_H
 #define BOXWOOD_RUNTIME_PREFETCH_H
 #include "runtime/inline.h"

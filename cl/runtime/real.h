@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How many boxes or paths a work-item treats at once: the code of oriented boxes and of shading is written on `real`, one
-// float, eight or sixteen. A device of fat work-items takes several, so that its vector units are used; the operations of a lane
-// are the same, and so are the results.
+// How many boxes or paths a work-item treats at once: the code of oriented boxes and of shading is written on `real`,
+// one float, eight or sixteen. A device of fat work-items takes several, so that its vector units are used; the
+// operations of a lane are the same, and so are the results.
 //
 // LANES  1, 8 or 16
 #ifndef BOXWOOD_RUNTIME_REAL_H
@@ -43,8 +43,8 @@ typedef ulong wide;
 #error "define LANES (1, 8 or 16)"
 #endif
 
-// Records of floats are read and written whole, one row per lane, and transposed in registers: picking single floats for the
-// lanes would make gather instructions of them, which are slow.
+// Records of floats are read and written whole, one row per lane, and transposed in registers: picking single floats
+// for the lanes would make gather instructions of them, which are slow.
 
 #if LANES > 1
 
@@ -102,26 +102,27 @@ INLINE void transpose(float8* r) {
 #define LOAD_ROWS(LOAD) LOAD_EIGHT(v, LOAD, 0)
 #define STORE_ROWS(STORE) STORE_EIGHT(v, STORE, 0)
 #else
-#define LOAD_ROWS(LOAD)                                                             \
-    do {                                                                            \
-        float8 low[8], high[8];                                                     \
-        LOAD_EIGHT(low, LOAD, 0);                                                   \
-        LOAD_EIGHT(high, LOAD, 8);                                                  \
+#define LOAD_ROWS(LOAD)                                                                  \
+    do {                                                                                 \
+        float8 low[8], high[8];                                                          \
+        LOAD_EIGHT(low, LOAD, 0);                                                        \
+        LOAD_EIGHT(high, LOAD, 8);                                                       \
         _Pragma("unroll") for (int k = 0; k < 8; ++k) v[k] = (float16)(low[k], high[k]); \
     } while (0)
-#define STORE_ROWS(STORE)                                     \
-    do {                                                      \
-        float8 low[8], high[8];                               \
-        _Pragma("unroll") for (int k = 0; k < 8; ++k) {       \
-            low[k] = v[k].lo;                                 \
-            high[k] = v[k].hi;                                \
-        }                                                     \
-        STORE_EIGHT(low, STORE, 0);                           \
-        STORE_EIGHT(high, STORE, 8);                          \
+#define STORE_ROWS(STORE)                               \
+    do {                                                \
+        float8 low[8], high[8];                         \
+        _Pragma("unroll") for (int k = 0; k < 8; ++k) { \
+            low[k] = v[k].lo;                           \
+            high[k] = v[k].hi;                          \
+        }                                               \
+        STORE_EIGHT(low, STORE, 0);                     \
+        STORE_EIGHT(high, STORE, 8);                    \
     } while (0)
 #endif
 
-/// v[k] = base[stride * index + k] of each lane's index, k < 8, and the same of six, four and three floats. v has room for 8.
+/// v[k] = base[stride * index + k] of each lane's index, k < 8, and the same of six, four and three floats. v has room
+/// for 8.
 INLINE void load_rows8(global const float* base, uint stride, const uint* index, real* v) {
 #define LOAD(lane) vload8(0, ROW(lane))
     LOAD_ROWS(LOAD);
@@ -197,7 +198,8 @@ INLINE void store_rows4(real* v, global float* base, uint stride, const uint* in
 #define CHOOSE(condition, yes, no) select((no), (yes), (condition))
 #define CHOOSE_INT(condition, yes, no) select((mask)(no), (mask)(yes), (condition))
 #if LANES > 1
-// By select(): of == compilers make the exclusive or of a vector of bits, which Oclgrind 21.10 takes for true in every lane.
+// By select(): of == compilers make the exclusive or of a vector of bits, which Oclgrind 21.10 takes for true in every
+// lane.
 #define NOT(condition) select((mask)(-1), (mask)(0), (condition))
 #else
 #define NOT(condition) ((condition) == 0)

@@ -131,9 +131,9 @@ INLINE void identity_frame(Frame* frame) {
     frame->c = z;
 }
 
-/// Makes rows that are nearly orthonormal so to rounding, and right-handed: the third follows from the first two. Entries of
-/// F F^T - I are then at most 24 roundoffs: 8 for the length of a row, 3 for each dot product and its use, and those of the
-/// cross product (10 were the most seen).
+/// Makes rows that are nearly orthonormal so to rounding, and right-handed: the third follows from the first two.
+/// Entries of F F^T - I are then at most 24 roundoffs: 8 for the length of a row, 3 for each dot product and its use,
+/// and those of the cross product (10 were the most seen).
 INLINE void orthonormalise(Frame* frame) {
     normalise3(&frame->a);
     add_scaled3(-dot3(&frame->a, &frame->b), &frame->a, &frame->b);
@@ -150,13 +150,14 @@ INLINE real power_below(real value) {
 /// 1 / power, exact, for powers of two from 2^-126 to 2^126.
 INLINE real inverse_power(real power) { return AS_REAL(0x7f000000 - AS_INT(power)); }
 
-/// A power of two that brings any positive value to where the inverse of power_below() is a normal float; 1 but for denormal
-/// numbers and those from 2^127 up. Zero stays.
+/// A power of two that brings any positive value to where the inverse of power_below() is a normal float; 1 but for
+/// denormal numbers and those from 2^127 up. Zero stays.
 INLINE real off_the_ends(real value) {
     return CHOOSE(value < 0x1p-126f, (real)(0x1p24f), CHOOSE(value >= 0x1p127f, (real)(0.5f), (real)(1.0f)));
 }
 
-/// v times a power of two that brings its largest component near 1, so that squares and products stay in range. Zero stays.
+/// v times a power of two that brings its largest component near 1, so that squares and products stay in range. Zero
+/// stays.
 INLINE void scale_to_one3(Vector* v) { scale3(inverse_power(smaller(power_below(largest3(v)), (real)(0x1p126f))), v); }
 
 /// Length 1 for any magnitude, unless v is zero, which stays.

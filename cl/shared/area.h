@@ -19,13 +19,13 @@ BOXWOOD_SHARED_SIZE(LocalArea, 112)
 // The value of AreaNode::axis for a node that is split along all three.
 #define BOXWOOD_OCTANTS 3u
 
-/// A cell of space. Inner nodes split it at `split[axis]` into two, or along all axes into eight; a point goes to the child
-/// first + (p[axis] >= split[axis]), or + 1, 2 and 4 by the three axes. A leaf has the areas that meet its cell.
+/// A cell of space. Inner nodes split it at `split[axis]` into two, or along all axes into eight; a point goes to the
+/// child first + (p[axis] >= split[axis]), or + 1, 2 and 4 by the three axes. A leaf has the areas that meet its cell.
 typedef struct AreaNode {
     float split[3]; ///< Zero where not used.
     uint axis;      ///< 0 to 2 or BOXWOOD_OCTANTS; 0 in leaves.
-    uint first;     ///< Inner: index of the first child, above this node's own. Leaf: its first entry of the list of areas.
-    uint count;     ///< Leaf: entries, ascending. Inner: BOXWOOD_NONE.
+    uint first; ///< Inner: index of the first child, above this node's own. Leaf: its first entry of the list of areas.
+    uint count; ///< Leaf: entries, ascending. Inner: BOXWOOD_NONE.
 } AreaNode;
 BOXWOOD_SHARED_SIZE(AreaNode, 24)
 

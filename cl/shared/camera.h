@@ -5,8 +5,8 @@
 
 BOXWOOD_SHARED_BEGIN
 
-/// A camera and the grid of its pixels. With X = 2 x + 1 - width + jitter[0] and Y = height - 2 y - 1 + jitter[1] the pixel (x, y),
-/// x to the right and y down from the top left, has the offset X * right + Y * up.
+/// A camera and the grid of its pixels. With X = 2 x + 1 - width + jitter[0] and Y = height - 2 y - 1 + jitter[1] the
+/// pixel (x, y), x to the right and y down from the top left, has the offset X * right + Y * up.
 typedef struct CameraRecord {
     float origin[3];
     uint perspective; ///< 1: rays go from the origin along forward + offset. 0: from origin + offset along forward.

@@ -11,10 +11,11 @@ typedef struct EnvironmentRecord {
     uint width;        ///< 0: no picture.
     uint height;
     float irradiance; ///< From the half of all directions that a surface sees, in the mean.
-    // Where surfaces draw directions, too, those of a picture are drawn by what is brighter than its mean (MIS compensation).
-    float floor;                 ///< The mean luminance.
+    // Where surfaces draw directions, too, those of a picture are drawn by what is brighter than its mean (MIS
+    // compensation).
+    float floor; ///< The mean luminance.
     float irradiance_above_floor;
-    float turn;                  ///< Of the picture, in turns about +y; in [0, 1).
+    float turn; ///< Of the picture, in turns about +y; in [0, 1).
 } EnvironmentRecord;
 BOXWOOD_SHARED_SIZE(EnvironmentRecord, 36)
 

@@ -7,11 +7,12 @@ BOXWOOD_SHARED_BEGIN
 
 /// One placed mesh as the device sees it. Matrices are affine, 3 rows of 4, row-major: p' = M[r][0..2] . p + M[r][3].
 typedef struct InstanceRecord {
-    float to_object[12]; ///< World to object. Rays take its linear part, after the translation of to_world is subtracted.
+    /// World to object. Rays take its linear part, after the translation of to_world is subtracted.
+    float to_object[12];
     float to_world[12]; ///< Object to world.
-    uint mesh; ///< Index into Scene::meshes.
-    uint root; ///< Root node of the mesh's bottom-level tree.
-    uint reserved[2]; ///< Zero.
+    uint mesh;          ///< Index into Scene::meshes.
+    uint root;          ///< Root node of the mesh's bottom-level tree.
+    uint reserved[2];   ///< Zero.
 } InstanceRecord;
 BOXWOOD_SHARED_SIZE(InstanceRecord, 112)
 

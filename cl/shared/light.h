@@ -21,8 +21,8 @@ typedef struct LightRecord {
     float intensity[3];
     float inverse_size; ///< Triangle: 1 / sqrt(area), world space.
     float edges[2][3];  ///< Triangle: from the first vertex to the others, world space.
-    // Spot: intensity times clamp((1 - scale^2 (1 - cosine)) * edge, 0, 1)^2, as KHR_lights_punctual has it, written so that
-    // narrow cones lose no digits.
+    // Spot: intensity times clamp((1 - scale^2 (1 - cosine)) * edge, 0, 1)^2, as KHR_lights_punctual has it, written so
+    // that narrow cones lose no digits.
     float cone_scale; ///< 1 / sqrt(1 - cos outer).
     float cone_edge;  ///< 1 / (1 - (1 - cos inner) / (1 - cos outer)).
     uint instance;    ///< Triangle: index into Scene::instances.
@@ -34,10 +34,10 @@ BOXWOOD_SHARED_SIZE(LightRecord, 96)
 
 /// A node of the tree over lights: what those below it may send to a place.
 typedef struct LightNode {
-    float center[3]; ///< World space.
-    float radius;    ///< Of a sphere that holds the lights.
-    float axis[3];   ///< Unit vector: they shine within a cone about it, and from there on as the cosine.
-    float amplitude; ///< Root of the intensity along the axis, or, when distant, of the irradiance; 0: no light.
+    float center[3];     ///< World space.
+    float radius;        ///< Of a sphere that holds the lights.
+    float axis[3];       ///< Unit vector: they shine within a cone about it, and from there on as the cosine.
+    float amplitude;     ///< Root of the intensity along the axis, or, when distant, of the irradiance; 0: no light.
     float spread_cosine; ///< Of the angle from the axis to the cone's edge,
     float spread_sine;   ///< and its sine.
     uint distant;        ///< 1: directional lights alone, which send the same everywhere.

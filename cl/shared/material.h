@@ -46,8 +46,8 @@ typedef struct MaterialRecord {
 } MaterialRecord;
 BOXWOOD_SHARED_SIZE(MaterialRecord, 224)
 
-/// A picture with its levels of detail, one behind the other in the texels of all, each half as large as the one before (at
-/// least 1 across). A texel has R in its lowest bits, then G, B and alpha.
+/// A picture with its levels of detail, one behind the other in the texels of all, each half as large as the one before
+/// (at least 1 across). A texel has R in its lowest bits, then G, B and alpha.
 typedef struct TextureRecord {
     uint first_texel; ///< Of level 0, in words of the texels.
     uint width;

@@ -15,10 +15,10 @@ typedef struct BinaryNode {
 } BinaryNode;
 BOXWOOD_SHARED_SIZE(BinaryNode, 64)
 
-/// `binary` with oriented volumes. Where a child's reference has BOXWOOD_ALIGNED, the first six floats of its volume are an
-/// Aabb (min, max) and the others are zero; else they are an Obb: center, extent, and its axes by columns, so that the
-/// three slabs are the lanes of a vector. A tree over one primitive has an empty, aligned second child with the
-/// reference BOXWOOD_NONE. Indices are below 2^30.
+/// `binary` with oriented volumes. Where a child's reference has BOXWOOD_ALIGNED, the first six floats of its volume
+/// are an Aabb (min, max) and the others are zero; else they are an Obb: center, extent, and its axes by columns, so
+/// that the three slabs are the lanes of a vector. A tree over one primitive has an empty, aligned second child with
+/// the reference BOXWOOD_NONE. Indices are below 2^30.
 typedef struct OrientedNode {
     float volume[2][15];
     uint child[2];
@@ -35,7 +35,7 @@ typedef struct Wide8Node {
     float min_z[8];
     float max_z[8];
     uint child[8];
-    uint count; ///< 1..8; 0 only in nodes that nothing refers to
+    uint count;       ///< 1..8; 0 only in nodes that nothing refers to
     uint reserved[7]; ///< Zero.
 } Wide8Node;
 BOXWOOD_SHARED_SIZE(Wide8Node, 256)

@@ -10,9 +10,10 @@ typedef struct PathState {
     float throughput[3]; ///< What a unit of radiance along the ray adds to the pixel.
     float pdf;           ///< Density, by solid angle, with which the surface drew the ray's direction.
     uint pixel;          ///< Index within the batch.
-    uint counts;         ///< Bounces so far, at most 64; from bit 8 on, modulo 2^24, surfaces passed that stop a part of the light.
-    float width;         ///< Of the beam at the ray's origin,
-    float spread;        ///< and what it grows by per distance.
+    /// Bounces so far, at most 64; from bit 8 on, modulo 2^24, surfaces passed that stop a part of the light.
+    uint counts;
+    float width;  ///< Of the beam at the ray's origin,
+    float spread; ///< and what it grows by per distance.
 } PathState;
 BOXWOOD_SHARED_SIZE(PathState, 32)
 
@@ -26,7 +27,8 @@ BOXWOOD_SHARED_SIZE(ShadowLight, 16)
 // Set in ShadowLight::pixel for light that is reflected more than once.
 #define BOXWOOD_INDIRECT 0x80000000u
 
-// After so many surfaces that let light pass, a shadow ray passes more by chance: as bright on average, but never long dim.
+// After so many surfaces that let light pass, a shadow ray passes more by chance: as bright on average, but never long
+// dim.
 #define BOXWOOD_SURE_LAYERS 64u
 
 BOXWOOD_SHARED_END

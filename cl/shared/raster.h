@@ -8,8 +8,9 @@
 
 BOXWOOD_SHARED_BEGIN
 
-/// A placed triangle as the rasteriser sees it. With X and Y the offsets of a pixel (see CameraRecord), its ray is where the three
-/// determinants of ((X, Y, 1), corner j, corner k) have the same sign, in front of the eye or behind it.
+/// A placed triangle as the rasteriser sees it. With X and Y the offsets of a pixel (see CameraRecord), its ray is
+/// where the three determinants of ((X, Y, 1), corner j, corner k) have the same sign, in front of the eye or behind
+/// it.
 typedef struct ScreenTriangle {
     Triangle surface; ///< For the ray test, in the space that rays are tested in; `primitive` is that of hits.
     /// Homogeneous, in half pixels: corner (x, y, w) is seen at X = x / w, Y = y / w. All times one power of two.

@@ -27,11 +27,11 @@ typedef struct LargeNode {
     uint first;       ///< Position.
     uint count;
     uint level;
-    uint flags;       ///< NODE_...
+    uint flags; ///< NODE_...
     uint tree;
     uint first_chunk;
     uint left_count;
-    uint cut;         ///< 4 * bin + axis: primitives in bins below go left.
+    uint cut; ///< 4 * bin + axis: primitives in bins below go left.
 } LargeNode;
 BOXWOOD_SHARED_SIZE(LargeNode, 96)
 

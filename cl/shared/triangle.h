@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Triangles as traversal reads them: their vertices, so that two triangles have the same numbers at the edge they share.
+// Triangles as traversal reads them: their vertices, so that two triangles have the same numbers at the edge they
+// share.
 #ifndef BOXWOOD_SHARED_TRIANGLE_H
 #define BOXWOOD_SHARED_TRIANGLE_H
 #include "shared/types.h"
 
 BOXWOOD_SHARED_BEGIN
 
-/// Leaf of the `binary` layout. A triangle of no area, one whose vertices are exactly collinear, is three times its first vertex,
-/// which no ray hits.
+/// Leaf of the `binary` layout. A triangle of no area, one whose vertices are exactly collinear, is three times its
+/// first vertex, which no ray hits.
 typedef struct Triangle {
     float v0[3];
     uint primitive; ///< Index of the triangle within its mesh (within the flattened scene for one level).
@@ -18,8 +19,8 @@ typedef struct Triangle {
 } Triangle;
 BOXWOOD_SHARED_SIZE(Triangle, 48)
 
-/// Leaf of the `wide8` layout: one to four triangles as structure of arrays, ascending by primitive. Unused slots are all zeros
-/// with primitive BOXWOOD_NONE; they can never be hit.
+/// Leaf of the `wide8` layout: one to four triangles as structure of arrays, ascending by primitive. Unused slots are
+/// all zeros with primitive BOXWOOD_NONE; they can never be hit.
 typedef struct Triangle4 {
     float v0_x[4];
     float v0_y[4];

@@ -16,13 +16,15 @@
 
 /// Each work-item traces `slice` consecutive rays.
 ///
-/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and `instances` are
-///       read for two levels only, `areas`, `area_nodes` and `area_items` for areas only; otherwise they may be null.
+/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and
+///       `instances` are read for two levels only, `areas`, `area_nodes` and `area_items` for areas only; otherwise
+///       they may be null.
 /// @post hits[i] is 1 when rays[i] hits something, else 0.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
-    global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
-    global const InstanceRecord* instances, global const LocalArea* areas, global const AreaNode* area_nodes,
-    global const uint* area_items, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere, global uint* hits) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void any_hit(global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
+             global const InstanceRecord* instances, global const LocalArea* areas, global const AreaNode* area_nodes,
+             global const uint* area_items, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere,
+             global uint* hits) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
     const TracedTree tree = {
@@ -31,7 +33,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void any_hit(
 #if AREAS
         {areas, area_nodes, area_items},
 #endif
-        sphere};
+        sphere
+    };
     for (uint i = first; i < last; ++i) {
         TraversalState state;
         Units units;

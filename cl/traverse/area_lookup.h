@@ -35,9 +35,9 @@ INLINE bool is_in_area(global const LocalArea* area, float3 p) {
     return area_contains(&area->region, p);
 }
 
-/// The area to search first for the ray from `p`: of those that hold p and that the ray follows the one that it leaves last, and
-/// of these the first. *exit is the distance up to which the ray is in it. BOXWOOD_NONE where there is none with *exit above
-/// t_min.
+/// The area to search first for the ray from `p`: of those that hold p and that the ray follows the one that it leaves
+/// last, and of these the first. *exit is the distance up to which the ray is in it. BOXWOOD_NONE where there is none
+/// with *exit above t_min.
 INLINE uint find_area(const Areas* a, float3 p, float3 direction, float t_min, float* exit) {
     global const AreaNode* leaf = &a->nodes[area_leaf(a, p)];
     uint found = BOXWOOD_NONE;

@@ -15,10 +15,10 @@ typedef struct Units {
     TwoFloats moved;
 } Units;
 
-/// What begin_ray does where the ray is not one that starts near the scene: moves the start there. False where nothing can be hit, as by
-/// rays that are not valid. `largest`: bits of the direction's largest magnitude.
-INLINE bool begin_far(const SceneSphere* sphere, float4 origin, float4 direction, uint largest, float3* start, Units* units,
-                      float* t_min, float* t_max) {
+/// What begin_ray does where the ray is not one that starts near the scene: moves the start there. False where nothing
+/// can be hit, as by rays that are not valid. `largest`: bits of the direction's largest magnitude.
+INLINE bool begin_far(const SceneSphere* sphere, float4 origin, float4 direction, uint largest, float3* start,
+                      Units* units, float* t_min, float* t_max) {
     if (largest == 0 || largest >= 0x7f800000u || !(origin.w >= 0.0f && origin.w <= direction.w)) return false;
     if (lanes4(fabs(origin) <= FLT_MAX) != 15) return false;
     const float3 unit = direction.xyz * power_of_two(-min(exponent_of(largest), 126));
@@ -33,11 +33,12 @@ INLINE bool begin_far(const SceneSphere* sphere, float4 origin, float4 direction
     return *t_max >= 0.0f;
 }
 
-/// Sets up the ray in world space, and the interval of its distances in which hits lie: *t_min excluded, *t_max, which is finite,
-/// included. False when the ray cannot hit anything, as one that is not valid; see Ray.
+/// Sets up the ray in world space, and the interval of its distances in which hits lie: *t_min excluded, *t_max, which
+/// is finite, included. False when the ray cannot hit anything, as one that is not valid; see Ray.
 ///
-/// The direction is scaled by a power of two to about the scene's radius, so that distances are near 1 and no product in traversal
-/// over- or underflows because a direction is long or short, or a scene large or small. Powers of two change no digit.
+/// The direction is scaled by a power of two to about the scene's radius, so that distances are near 1 and no product
+/// in traversal over- or underflows because a direction is long or short, or a scene large or small. Powers of two
+/// change no digit.
 INLINE bool begin_ray(global const Ray* source, const SceneSphere* sphere, LocalRay* ray, Units* units, float* t_min,
                       float* t_max) {
     const float4 origin = vload4(0, source->origin);
@@ -66,12 +67,14 @@ INLINE bool begin_ray(global const Ray* source, const SceneSphere* sphere, Local
     // No hit at an infinite distance, in either unit: that is how a miss is written.
     *t_max = fmin(fmin(direction.w, FLT_MAX) * as_float(factor.x), FLT_MAX);
     float3 start = origin.xyz;
-    if (lanes4(is_near) != 15 && !begin_far(sphere, origin, direction, largest.x, &start, units, t_min, t_max)) return false;
+    if (lanes4(is_near) != 15 && !begin_far(sphere, origin, direction, largest.x, &start, units, t_min, t_max))
+        return false;
     make_local_ray(start, (direction * inverse).xyz, LENGTH_EXPONENT - size, ray);
     return true;
 }
 
-/// The caller's distance of a hit at `t` along the traced ray: never outside of the caller's interval, even where it rounds there.
+/// The caller's distance of a hit at `t` along the traced ray: never outside of the caller's interval, even where it
+/// rounds there.
 INLINE float caller_distance(global const Ray* source, const Units* units, float t) {
     const float distance = (units->moved.high + (units->moved.low + t)) * units->inverse;
     const float least = as_float(as_uint(fabs(source->t_min)) + 1);

@@ -20,16 +20,17 @@
 
 /// Each work-item traces `slice` consecutive rays; a ray's work is not known beforehand, so slices are short and many.
 ///
-/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and `instances` are
-///       read for two levels only, `areas`, `area_nodes` and `area_items` for areas only, `first_triangles` (instance_count
-///       + 1 entries) for flattened trees only, `statistics` is written for statistics only; otherwise they may be null.
+/// @pre  A valid, not empty tree within the stack bound of traversal_state.h, all of it in `sphere`. `top_nodes` and
+///       `instances` are read for two levels only, `areas`, `area_nodes` and `area_items` for areas only,
+///       `first_triangles` (instance_count + 1 entries) for flattened trees only, `statistics` is written for
+///       statistics only; otherwise they may be null.
 /// @post hits[i] is the answer for rays[i]: the smallest t, then the lowest (instance, primitive).
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
-    global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
-    global const InstanceRecord* instances, global const LocalArea* areas, global const AreaNode* area_nodes,
-    global const uint* area_items, global const uint* first_triangles, uint instance_count,
-    global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere, global Hit* hits,
-    global RayStatistics* statistics) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void closest_hit(global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
+                 global const InstanceRecord* instances, global const LocalArea* areas,
+                 global const AreaNode* area_nodes, global const uint* area_items, global const uint* first_triangles,
+                 uint instance_count, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere,
+                 global Hit* hits, global RayStatistics* statistics) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
     const TracedTree tree = {
@@ -38,7 +39,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void closest_hit(
 #if AREAS
         {areas, area_nodes, area_items},
 #endif
-        sphere};
+        sphere
+    };
     for (uint i = first; i < last; ++i) {
         TraversalState state;
         Units units;

@@ -18,9 +18,12 @@
     !defined(AREAS) || !defined(INTERSECTOR) || !defined(STATISTICS) || !defined(STACK_SIZE) || !defined(GROUP_SIZE)
 #error "define ANY_HIT, LAYOUT, ORIENTED, LEVELS, FLATTENED, AREAS, INTERSECTOR, STATISTICS, STACK_SIZE and GROUP_SIZE"
 #endif
-#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || (FLATTENED && LEVELS != 1) || \
-    (AREAS && (LEVELS != 1 || ORIENTED)) || STACK_SIZE < 1
-#error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only one level can be flattened, only one level of axis-aligned boxes has areas, and the stack is not empty"
+#if (LAYOUT != 2 && LAYOUT != 8) || (ORIENTED && LAYOUT != 2) || (LEVELS != 1 && LEVELS != 2) || \
+    (FLATTENED && LEVELS != 1) || STACK_SIZE < 1
+#error "LAYOUT is 2 or 8, only 2 has oriented boxes, LEVELS is 1 or 2, only 1 can be flattened, the stack is not empty"
+#endif
+#if AREAS && (LEVELS != 1 || ORIENTED)
+#error "only one level of axis-aligned boxes has areas"
 #endif
 
 #include "runtime/lanes.h"

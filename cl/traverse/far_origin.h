@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays from far away start anew near the scene. Roundings grow with the distance from the origin, and with them the boxes that
-// a ray has to visit; a point of the ray near the scene has neither.
+// Rays from far away start anew near the scene. Roundings grow with the distance from the origin, and with them the
+// boxes that a ray has to visit; a point of the ray near the scene has neither.
 #ifndef BOXWOOD_TRAVERSE_FAR_ORIGIN_H
 #define BOXWOOD_TRAVERSE_FAR_ORIGIN_H
 #include "runtime/inline.h"
@@ -27,12 +27,12 @@ INLINE TwoFloats add_scaled(TwoFloats a, float b, float c) {
     return two_sum(sum.high, a.low + (sum.low + fma(b, c, -product)));
 }
 
-/// Moves the origin along `direction`, whose largest component is from 1 to 2, to two radii or more before the sphere's center,
-/// and sets *distance to how far that was. False when the ray misses the sphere or leaves it behind.
+/// Moves the origin along `direction`, whose largest component is from 1 to 2, to two radii or more before the sphere's
+/// center, and sets *distance to how far that was. False when the ray misses the sphere or leaves it behind.
 ///
-/// Each step goes to where the ray is nearest to the center, less 2 radii / |direction|^2 times that; it misses that by some 8u
-/// of the step (u = 2^-24) and, as steps are cut to 9 bits so that whole numbers stay whole, by 2^-8 of it: two steps suffice from
-/// 1e4 radii, eight from anywhere. Position and distance are sums of two floats, whose roundings are
+/// Each step goes to where the ray is nearest to the center, less 2 radii / |direction|^2 times that; it misses that by
+/// some 8u of the step (u = 2^-24) and, as steps are cut to 9 bits so that whole numbers stay whole, by 2^-8 of it: two
+/// steps suffice from 1e4 radii, eight from anywhere. Position and distance are sums of two floats, whose roundings are
 /// 2^-48 of a step: where it matters the moved origin is the exact point of the ray rounded once, off by u of its own
 /// coordinates, as an origin given there would be.
 static __attribute__((noinline)) bool move_origin(SceneSphere sphere, float3 direction, float3* origin,
@@ -42,7 +42,8 @@ static __attribute__((noinline)) bool move_origin(SceneSphere sphere, float3 dir
     distance->high = 0.0f;
     distance->low = 0.0f;
     for (int i = 0; i < 16; ++i) {
-        const float3 to_center = (float3)(sphere.center[0] - x.high, sphere.center[1] - y.high, sphere.center[2] - z.high);
+        const float3 to_center =
+            (float3)(sphere.center[0] - x.high, sphere.center[1] - y.high, sphere.center[2] - z.high);
         const float along =
             fma(to_center.x, direction.x, fma(to_center.y, direction.y, to_center.z * direction.z)) / square;
         const float step = as_float(as_uint(along - 2.0f * sphere.radius) & 0xffff8000u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the triangle tests read a leaf: as float for the single triangles of LAYOUT 2, as float4 for the blocks of LAYOUT 8.
+// How the triangle tests read a leaf: as float for the single triangles of LAYOUT 2, as float4 for the blocks of LAYOUT
+// 8.
 #ifndef BOXWOOD_TRAVERSE_LEAF_H
 #define BOXWOOD_TRAVERSE_LEAF_H
 #include "runtime/lanes.h"
@@ -9,7 +10,8 @@
 #if LAYOUT == 8
 typedef Triangle4 leaf_t;
 typedef float4 real_t;
-/// Coordinate `axis` of vertex `corner`, of each triangle of `leaf`. Blocks are 160 bytes in a buffer aligned to more than 16.
+/// Coordinate `axis` of vertex `corner`, of each triangle of `leaf`. Blocks are 160 bytes in a buffer aligned to more
+/// than 16.
 #define COORDINATE(corner, axis) (((global const float4*)leaf->v0_x + (axis))[3 * (corner)])
 #define HOLDING(mask) lanes4(mask)
 #elif LAYOUT == 2

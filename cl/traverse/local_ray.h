@@ -11,20 +11,22 @@ typedef struct LocalRay {
     float3 origin;
     float3 direction;
     // Negative, so that a box's planes are subtracted from the origin: straight from memory, without a load before.
-    float3 minus_near_inverse; ///< -1 / direction, for the planes where the ray enters; magnitude at most the exact one.
-    float3 minus_far_inverse;  ///< The same for the planes where it leaves; magnitude at least the exact one.
-    /// Bytes from a wide8 node's first row to those of the planes where the ray enters, of the other planes but for bit 5.
+    /// -1 / direction, for the planes where the ray enters; magnitude at most the exact one.
+    float3 minus_near_inverse;
+    float3 minus_far_inverse; ///< The same for the planes where it leaves; magnitude at least the exact one.
+    /// Bytes from a wide8 node's first row to those of the planes where the ray enters, of the other planes but for bit
+    /// 5.
     size_t near_x, near_y, near_z;
     int exponent; ///< Of lengths, for the triangle test; see make_shear.
 } LocalRay;
 
 // How far the inverses are moved; why no box is missed is in ray_triangle.h. Let u = 2^-24. A slab distance
-// fl(origin - plane) * -inverse takes a rounding of the reciprocal (2.5 ulp <= 5u by the OpenCL standard), one of its product
-// with the factor below (u) and one of the last product (u): 7u. The distance of a hit is off by at most 9u of itself, a part of
-// the triangle's size apart for which boxes are padded. A factor of 1 -/+ 20u therefore makes every entry distance at most,
-// and every exit distance at least, that of any hit in the box, terms of second order included. A negative entry distance moves up,
-// towards 0, but never past: that is harmless, as t_min >= 0; a negative exit distance moves further down, which is a miss either
-// way.
+// fl(origin - plane) * -inverse takes a rounding of the reciprocal (2.5 ulp <= 5u by the OpenCL standard), one of its
+// product with the factor below (u) and one of the last product (u): 7u. The distance of a hit is off by at most 9u of
+// itself, a part of the triangle's size apart for which boxes are padded. A factor of 1 -/+ 20u therefore makes every
+// entry distance at most, and every exit distance at least, that of any hit in the box, terms of second order included.
+// A negative entry distance moves up, towards 0, but never past: that is harmless, as t_min >= 0; a negative exit
+// distance moves further down, which is a miss either way.
 #define BOX_SLACK 0x1.4p-20f
 
 /// 2^exponent, for -126 to 127.
@@ -42,8 +44,8 @@ INLINE uint4 largest_of(uint4 bits) {
     return max(of_two, of_two.zwxy);
 }
 
-/// The bits of the power of two of positive numbers, by their bits; at least that of 2^-126. (Integer min, max and clamp with a scalar
-/// as the bound of a vector go wrong in Oclgrind 21.10.)
+/// The bits of the power of two of positive numbers, by their bits; at least that of 2^-126. (Integer min, max and
+/// clamp with a scalar as the bound of a vector go wrong in Oclgrind 21.10.)
 INLINE uint4 power_bits(uint4 bits) { return max(bits & 0x7f800000u, (uint4)(0x00800000u)); }
 
 /// inverse_of_power in each lane, of powers as bits.
@@ -53,8 +55,8 @@ INLINE float4 inverse_of_power_bits(uint4 power) { return as_float4(0x7f000000u 
 INLINE int exponent_of(uint bits) { return (int)max(bits >> 23, 1u) - 127; }
 
 /// A zero direction gives infinity for both inverses: its slab then never limits the ray inside (-inf to +inf, and
-/// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside; -0 does so as a direction downward. A direction
-/// so small that its reciprocal overflows has a finite, smaller one for entering.
+/// 0 * inf = NaN on the faces, which the box test ignores), and rejects it outside; -0 does so as a direction downward.
+/// A direction so small that its reciprocal overflows has a finite, smaller one for entering.
 INLINE void make_local_ray(float3 origin, float3 direction, int exponent, LocalRay* ray) {
     // Four lanes, the last one anything: three cost more.
     const float4 wide = as_float4(direction);
@@ -83,8 +85,9 @@ INLINE int growth(global const float* matrix) {
     return exponent_of(largest_of(max(magnitudes(row0), max(magnitudes(row1), magnitudes(row2)))).x);
 }
 
-/// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space. The instance's place
-/// is subtracted first, which far from the world's origin keeps the digits that the translation of to_object has lost.
+/// The ray in the object space of an instance. The direction is not normalised, so t means the same in every space. The
+/// instance's place is subtracted first, which far from the world's origin keeps the digits that the translation of
+/// to_object has lost.
 INLINE void to_object_space(const LocalRay* ray, global const InstanceRecord* instance, LocalRay* local_ray) {
     global const float* m = instance->to_object;
     global const float* w = instance->to_world;

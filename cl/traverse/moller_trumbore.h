@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ray against triangle after Moller and Trumbore (1997), from the vertices and without any epsilon: what the watertight test of
-// ray_triangle.h is priced against. Neighbours round their shared edge differently, so rays may pass between them or hit both, and
-// boxes, which are padded for the watertight test, may or may not decide about a hit.
+// Ray against triangle after Moller and Trumbore (1997), from the vertices and without any epsilon: what the watertight
+// test of ray_triangle.h is priced against. Neighbours round their shared edge differently, so rays may pass between
+// them or hit both, and boxes, which are padded for the watertight test, may or may not decide about a hit.
 #ifndef BOXWOOD_TRAVERSE_MOLLER_TRUMBORE_H
 #define BOXWOOD_TRAVERSE_MOLLER_TRUMBORE_H
 #include "traverse/leaf.h"
@@ -17,14 +17,17 @@ INLINE void make_shear(const LocalRay* ray, Shear* shear) {
     shear->none = 0;
 }
 
-/// As ray_triangle of ray_triangle.h. Triangles whose two edges are parallel or zero are never hit: the two products in each
-/// component of the normal are then equal and rounded alike, so the normal is exactly zero, and so is the determinant.
+/// As ray_triangle of ray_triangle.h. Triangles whose two edges are parallel or zero are never hit: the two products in
+/// each component of the normal are then equal and rounded alike, so the normal is exactly zero, and so is the
+/// determinant.
 INLINE uint ray_triangle(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, float t_min, float t_max,
                          TriangleHit* hit) {
     (void)shear;
     const real_t v0_x = COORDINATE(0, 0), v0_y = COORDINATE(0, 1), v0_z = COORDINATE(0, 2);
-    const real_t edge1_x = COORDINATE(1, 0) - v0_x, edge1_y = COORDINATE(1, 1) - v0_y, edge1_z = COORDINATE(1, 2) - v0_z;
-    const real_t edge2_x = COORDINATE(2, 0) - v0_x, edge2_y = COORDINATE(2, 1) - v0_y, edge2_z = COORDINATE(2, 2) - v0_z;
+    const real_t edge1_x = COORDINATE(1, 0) - v0_x, edge1_y = COORDINATE(1, 1) - v0_y,
+                 edge1_z = COORDINATE(1, 2) - v0_z;
+    const real_t edge2_x = COORDINATE(2, 0) - v0_x, edge2_y = COORDINATE(2, 1) - v0_y,
+                 edge2_z = COORDINATE(2, 2) - v0_z;
     const real_t direction_x = ray->direction.x, direction_y = ray->direction.y, direction_z = ray->direction.z;
     const real_t to_v0_x = v0_x - ray->origin.x;
     const real_t to_v0_y = v0_y - ray->origin.y;
@@ -51,8 +54,7 @@ INLINE uint ray_triangle(const LocalRay* ray, const Shear* shear, global const l
     // The normal is divided first, so that no product of three lengths is formed. Where that overflows or gives NaN,
     // t is not in (t_min, t_max], as t_max is finite.
     const real_t inverse = 1.0f / determinant;
-    hit->t = fma(to_v0_x, normal_x * inverse,
-                      fma(to_v0_y, normal_y * inverse, to_v0_z * (normal_z * inverse)));
+    hit->t = fma(to_v0_x, normal_x * inverse, fma(to_v0_y, normal_y * inverse, to_v0_z * (normal_z * inverse)));
     hit->u = scaled_u * fabs(inverse);
     hit->v = scaled_v * fabs(inverse);
     return inside & HOLDING((hit->t > t_min) & (hit->t <= t_max));

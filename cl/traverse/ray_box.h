@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ray against the child boxes of a node, by slabs. The test is conservative (see local_ray.h) and boxes are closed: a ray in
-// the plane of a face enters.
+// Ray against the child boxes of a node, by slabs. The test is conservative (see local_ray.h) and boxes are closed: a
+// ray in the plane of a face enters.
 #ifndef BOXWOOD_TRAVERSE_RAY_BOX_H
 #define BOXWOOD_TRAVERSE_RAY_BOX_H
 #include "runtime/lanes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What rays meet of a binary tree before it has a layout, with the leaves that a builder chose: counted over all boxes on the
-// ray, as cost functions do, and over those that the search for the closest hit visits.
+// What rays meet of a binary tree before it has a layout, with the leaves that a builder chose: counted over all boxes
+// on the ray, as cost functions do, and over those that the search for the closest hit visits.
 //
 // STACK_SIZE  at least 1 more than the most nodes on a path from the root to a leaf's parent
 // PORTABLE_LANES  see runtime/lanes.h
@@ -40,8 +40,8 @@ INLINE bool is_leaf(const MarkedTree* tree, uint node, uint* first, uint* last) 
     return true;
 }
 
-INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, const TraversalState* state, entry_t* stack,
-                     RayVisits* visits) {
+INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, const TraversalState* state,
+                     entry_t* stack, RayVisits* visits) {
     uint top = 0;
     stack[top++] = root;
     while (top != 0) {
@@ -61,7 +61,8 @@ INLINE void meet_all(const MarkedTree* tree, const LocalRay* ray, uint root, con
 }
 
 /// The nearer child met is next; of equally near ones the left.
-INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node, TraversalState* state, entry_t* stack) {
+INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node, TraversalState* state,
+                         entry_t* stack) {
     const uint2 below = tree->children[node];
     float left_entry, right_entry;
     const bool left = ray_box(ray, &tree->volumes[below.x], state->t_min, state->t_max, &left_entry);
@@ -75,7 +76,8 @@ INLINE uint nearer_child(const MarkedTree* tree, const LocalRay* ray, uint node,
     return right ? below.y : BOXWOOD_NONE;
 }
 
-INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, TraversalState* state, entry_t* stack, RayVisits* visits) {
+INLINE void search(const MarkedTree* tree, const LocalRay* ray, uint root, TraversalState* state, entry_t* stack,
+                   RayVisits* visits) {
     float entry;
     Shear shear;
     make_shear(ray, &shear);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The traversal of one ray, closest hit or any hit, one level or two: depth first, nearest child first, with an explicit
-// stack (dissertation 3.4 and 3.6.3; lecture slides on closest-hit and boolean intersection).
+// The traversal of one ray, closest hit or any hit, one level or two: depth first, nearest child first, with an
+// explicit stack (dissertation 3.4 and 3.6.3; lecture slides on closest-hit and boolean intersection).
 #ifndef BOXWOOD_TRAVERSE_TRAVERSAL_H
 #define BOXWOOD_TRAVERSE_TRAVERSAL_H
 #include "traverse/begin_ray.h"
@@ -12,8 +12,8 @@
 /// True once nothing can change the answer any more.
 INLINE bool is_settled(const TraversalState* state) { return ANY_HIT && state->primitive != BOXWOOD_NONE; }
 
-/// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit, if the closest is asked for; BOXWOOD_NONE
-/// when none is left.
+/// Takes entries off the stack, down to `bottom`, until one is not beyond the best hit, if the closest is asked for;
+/// BOXWOOD_NONE when none is left.
 INLINE uint next_reference(TraversalState* state, const entry_t* stack, uint bottom) {
     while (state->top > bottom) {
         const entry_t entry = stack[--state->top];
@@ -22,8 +22,10 @@ INLINE uint next_reference(TraversalState* state, const entry_t* stack, uint bot
     return BOXWOOD_NONE;
 }
 
-/// From `reference` on to the next leaf, or BOXWOOD_NONE. That has the leaf bit, so the inner loop ends where nothing is met.
-INLINE uint next_leaf(const LocalRay* ray, const Arrays* arrays, uint reference, TraversalState* state, entry_t* stack, uint bottom) {
+/// From `reference` on to the next leaf, or BOXWOOD_NONE. That has the leaf bit, so the inner loop ends where nothing
+/// is met.
+INLINE uint next_leaf(const LocalRay* ray, const Arrays* arrays, uint reference, TraversalState* state, entry_t* stack,
+                      uint bottom) {
     while (reference != BOXWOOD_NONE) {
         while ((reference & BOXWOOD_LEAF) == 0) reference = visit_node(ray, arrays, reference, state, stack);
         if (reference != BOXWOOD_NONE) return reference;
@@ -33,8 +35,8 @@ INLINE uint next_leaf(const LocalRay* ray, const Arrays* arrays, uint reference,
 }
 
 /// Everything below node `reference`.
-INLINE void traverse_bottom(const LocalRay* ray, const Arrays* arrays, uint reference, uint instance, TraversalState* state,
-                            entry_t* stack) {
+INLINE void traverse_bottom(const LocalRay* ray, const Arrays* arrays, uint reference, uint instance,
+                            TraversalState* state, entry_t* stack) {
     global const leaf_t* leaves = (global const leaf_t*)arrays->leaves;
     const uint bottom = state->top;
     // Apart from the loop, as many rays meet no leaf, and what triangles need of the ray takes as long as some nodes.
@@ -51,7 +53,8 @@ INLINE void traverse_bottom(const LocalRay* ray, const Arrays* arrays, uint refe
 
 #if LEVELS == 2
 
-INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* arrays, TraversalState* state, entry_t* stack) {
+INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* arrays, TraversalState* state,
+                         entry_t* stack) {
     global const InstanceRecord* instances = (global const InstanceRecord*)top->leaves;
     uint reference = 0;
     do {
@@ -71,28 +74,31 @@ INLINE void traverse_top(const LocalRay* ray, const Arrays* top, const Arrays* a
 
 #if AREAS
 
-// 0: takes every hit in a local tree for the closest, as the paper does, which is wrong beyond the region; for measurements.
+// 0: takes every hit in a local tree for the closest, as the paper does, which is wrong beyond the region; for
+// measurements.
 #ifndef EXIT_RULE
 #define EXIT_RULE 1
 #endif
 
 /// Searches the local tree of an area that holds the origin, then what is left with the global tree.
 ///
-/// Closest hits, exactly. While a ray is in a region, which is convex, it meets only triangles that have a point there, and the
-/// local tree has all of these and those so near that rounding could bring them in (cl/build/area_triangles.cl). So every
-/// triangle that the ray hits at t <= exit is in the local tree. The local search covers (t_min, exit], ends included as
-/// ray_triangle() has them: a hit there is the smallest t of all triangles, and the lowest of all at that t. Without one
-/// nothing is hit up to the exit, and the global tree is searched for boxes that the ray meets in [exit, t_max]. A local hit beyond
-/// the exit would be none of the two: a triangle without a point in the region may be nearer.
+/// Closest hits, exactly. While a ray is in a region, which is convex, it meets only triangles that have a point there,
+/// and the local tree has all of these and those so near that rounding could bring them in
+/// (cl/build/area_triangles.cl). So every triangle that the ray hits at t <= exit is in the local tree. The local
+/// search covers (t_min, exit], ends included as ray_triangle() has them: a hit there is the smallest t of all
+/// triangles, and the lowest of all at that t. Without one nothing is hit up to the exit, and the global tree is
+/// searched for boxes that the ray meets in [exit, t_max]. A local hit beyond the exit would be none of the two: a
+/// triangle without a point in the region may be nearer.
 ///
-/// A triangle that the ray grazes beyond the exit may have a computed t before it: t rounds by the distance over the sine of the
-/// angle between them. Its box reaches beyond the exit, so it is met, and its hit counts, as t_start has not moved.
+/// A triangle that the ray grazes beyond the exit may have a computed t before it: t rounds by the distance over the
+/// sine of the angle between them. Its box reaches beyond the exit, so it is met, and its hit counts, as t_start has
+/// not moved.
 ///
 /// Any hit: a triangle of the local tree is one of the scene, so a hit in it is an answer wherever it lies.
 ///
 /// A ray from far away searches the global tree alone.
-INLINE void traverse_areas(const LocalRay* ray, const Units* units, const Areas* areas, const Arrays* arrays, TraversalState* state,
-                           entry_t* stack) {
+INLINE void traverse_areas(const LocalRay* ray, const Units* units, const Areas* areas, const Arrays* arrays,
+                           TraversalState* state, entry_t* stack) {
     const float t_max = state->t_max;
     const float length = units->length;
     float exit = 0.0f;
@@ -125,7 +131,8 @@ INLINE void traverse_areas(const LocalRay* ray, const Units* units, const Areas*
 #endif
 
 /// Sets up `state` and the ray in world space. False when the ray cannot hit anything.
-INLINE bool begin_traversal(global const Ray* source, const SceneSphere* sphere, LocalRay* ray, Units* units, TraversalState* state) {
+INLINE bool begin_traversal(global const Ray* source, const SceneSphere* sphere, LocalRay* ray, Units* units,
+                            TraversalState* state) {
     state->primitive = BOXWOOD_NONE;
     state->instance = BOXWOOD_NONE;
     state->u = 0.0f;

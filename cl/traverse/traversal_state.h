@@ -11,8 +11,8 @@
 #include "traverse/moller_trumbore.h"
 #endif
 
-// A stack entry is the distance to a child's box and, in the lower half, the child reference. Distances are not negative,
-// so entries compare as their distances do.
+// A stack entry is the distance to a child's box and, in the lower half, the child reference. Distances are not
+// negative, so entries compare as their distances do.
 typedef ulong entry_t;
 #define ENTRY_OF(distance, reference) ((ulong)as_uint(distance) << 32 | (reference))
 #define ENTRY_DISTANCE(entry) as_float((uint)((entry) >> 32))
@@ -24,10 +24,10 @@ typedef struct Arrays {
     uint leaf_bytes;
 } Arrays;
 
-// STACK_SIZE suffices when it is LAYOUT - 1 times the most nodes on a path from the root to a leaf's parent, both levels
-// added up. Proof: the traversal is depth first, so the entries present are siblings of nodes on the path to the node at
-// hand (in a bottom tree: siblings on the way down it, above those on the way to its instance); a node on the path leaves
-// behind all of its children but the one that was entered, at most LAYOUT - 1, and it was itself taken off.
+// STACK_SIZE suffices when it is LAYOUT - 1 times the most nodes on a path from the root to a leaf's parent, both
+// levels added up. Proof: the traversal is depth first, so the entries present are siblings of nodes on the path to the
+// node at hand (in a bottom tree: siblings on the way down it, above those on the way to its instance); a node on the
+// path leaves behind all of its children but the one that was entered, at most LAYOUT - 1, and it was itself taken off.
 
 /// The stack itself is a variable of its own: an array inside would keep the whole struct out of registers.
 typedef struct TraversalState {
@@ -46,7 +46,8 @@ typedef struct TraversalState {
 } TraversalState;
 
 /// Tests a leaf's triangles and keeps the best hit: the smallest t, then the lowest (instance, primitive).
-INLINE void visit_leaf(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, uint instance, TraversalState* state) {
+INLINE void visit_leaf(const LocalRay* ray, const Shear* shear, global const leaf_t* leaf, uint instance,
+                       TraversalState* state) {
 #if STATISTICS
 #if LAYOUT == 8
     const int4 used = (vload4(0, leaf->primitive) != BOXWOOD_NONE) & 1;

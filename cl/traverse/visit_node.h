@@ -8,17 +8,17 @@
 #include "traverse/traversal_state.h"
 
 // Exchanges two entries when the first is farther, without a branch.
-#define ORDER(near_entry, far_entry)                        \
-    do {                                                    \
-        const entry_t lower = min(near_entry, far_entry);   \
-        far_entry = max(near_entry, far_entry);             \
-        near_entry = lower;                                 \
+#define ORDER(near_entry, far_entry)                      \
+    do {                                                  \
+        const entry_t lower = min(near_entry, far_entry); \
+        far_entry = max(near_entry, far_entry);           \
+        near_entry = lower;                               \
     } while (0)
 
 #if LAYOUT == 8
 
-/// The entry of child `lane`, which will be visited soon: its memory is asked for now. Where any hit will do leaves come first,
-/// as they may end the search.
+/// The entry of child `lane`, which will be visited soon: its memory is asked for now. Where any hit will do leaves
+/// come first, as they may end the search.
 INLINE entry_t child_entry(global const node_t* node, const float* distance, uint lane, const Arrays* arrays) {
     const uint reference = node->child[lane];
     const bool is_leaf = (reference & BOXWOOD_LEAF) != 0;
@@ -74,7 +74,8 @@ INLINE uint visit_node(const LocalRay* ray, const Arrays* arrays, uint index, Tr
 
 #if ORIENTED
 
-INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state, float* entry) {
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state,
+                      float* entry) {
     global const float* volume = node->volume[slot];
     if ((node->child[slot] & BOXWOOD_ALIGNED) != 0)
         return ray_box(ray, (global const Aabb*)volume, state->t_min, state->t_max, entry);
@@ -85,7 +86,8 @@ INLINE uint child_reference(global const node_t* node, uint slot) { return node-
 
 #else
 
-INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state, float* entry) {
+INLINE bool ray_child(const LocalRay* ray, global const node_t* node, uint slot, const TraversalState* state,
+                      float* entry) {
     return ray_box(ray, &node->bounds[slot], state->t_min, state->t_max, entry);
 }
 

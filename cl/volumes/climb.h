@@ -34,8 +34,8 @@ inline void climb_across(const Climb* c, CLIMB_DATA data, uint node) {
     }
 }
 
-/// The leaf at `position` and all that it completes inside the slice. Finished left children wait in position order from
-/// `waiting` to here. Returns the new `waiting`.
+/// The leaf at `position` and all that it completes inside the slice. Finished left children wait in position order
+/// from `waiting` to here. Returns the new `waiting`.
 inline uint climb_leaf(const Climb* c, CLIMB_DATA data, uint position, uint waiting) {
     visit_leaf(data, position, c->count);
     uint node = c->count + position;

@@ -24,7 +24,7 @@ inline void visit_node(global uint* heights, uint node, uint2 children, uint cou
 /// arrivals are 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void node_heights(global const uint2* children, global const uint* parents, global const uint* far_ends,
-             global handoff_t* arrivals, global uint* heights, uint count, uint slice) {
+                  global handoff_t* arrivals, global uint* heights, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= count) return;
     const Climb climb = {children, parents, far_ends, arrivals, count};

@@ -11,8 +11,8 @@ void number(global uint* nodes, uint count, uint slice) {
     for (uint i = begin; i < end; ++i) nodes[i] = i;
 }
 
-/// starts[h] = where the nodes of height h begin among nodes sorted by height. Before: heights ascend, each from 1 to the
-/// greatest occurs; unused slots have 0 and starts[0] is not written.
+/// starts[h] = where the nodes of height h begin among nodes sorted by height. Before: heights ascend, each from 1 to
+/// the greatest occurs; unused slots have 0 and starts[0] is not written.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void level_starts(global const uint* heights, global uint* starts, uint count, uint slice) {
     const uint begin = (uint)get_global_id(0) * slice;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes of the top level: the leaves are the boxes of meshes under the transforms of their instances, M_i = M_o M_m
-// (dissertation 3.1.4 and 3.6.2). While the nodes above are fitted, a leaf is its 8 corners, and an orthonormal box
-// around them; at the end it becomes the parallelepiped itself.
+// Oriented boxes of the top level: the leaves are the boxes of meshes under the transforms of their instances, M_i =
+// M_o M_m (dissertation 3.1.4 and 3.6.2). While the nodes above are fitted, a leaf is its 8 corners, and an orthonormal
+// box around them; at the end it becomes the parallelepiped itself.
 //
 // MOMENTS  as in obb_leaves.cl
 // POINTS_PER_PRIMITIVE  8
@@ -39,12 +39,13 @@ INLINE void load_vector_private(const float* source, Vector* v) {
     v->z = source[2];
 }
 
-/// A centre, an edge or a corner takes dot products of 3 and sums of 4 terms, and a corner is read relative to the origin of a
-/// node's space: 16 roundoffs of the sum of all magnitudes. The box's edges are the columns of the inverse of its axes, not exactly
-/// their rows: along each axis, those of all three edges together are off by 56 roundoffs (8 and twice 24, see
-/// orthonormalise) of the longest. 72 of all magnitudes with the longest extent on each axis bound both.
-/// What a ray in object space may be off comes on top, so that the nodes above are around every hit.
-INLINE void transform_box(global const InstanceRecord* record, global const Obb* box, const SceneSphere* sphere, Placed* placed) {
+/// A centre, an edge or a corner takes dot products of 3 and sums of 4 terms, and a corner is read relative to the
+/// origin of a node's space: 16 roundoffs of the sum of all magnitudes. The box's edges are the columns of the inverse
+/// of its axes, not exactly their rows: along each axis, those of all three edges together are off by 56 roundoffs (8
+/// and twice 24, see orthonormalise) of the longest. 72 of all magnitudes with the longest extent on each axis bound
+/// both. What a ray in object space may be off comes on top, so that the nodes above are around every hit.
+INLINE void transform_box(global const InstanceRecord* record, global const Obb* box, const SceneSphere* sphere,
+                          Placed* placed) {
     Vector center;
     load_vector(box->center, &center);
     float position[3], edge[3][3], size[3];
@@ -105,8 +106,8 @@ INLINE void placed_frame(global const InstanceRecord* record, global const Obb* 
     orthonormalise(axes);
 }
 
-/// The corners of the instance at sorted position i, their error, the box around them along its axes, and with MOMENTS their
-/// moments.
+/// The corners of the instance at sorted position i, their error, the box around them along its axes, and with MOMENTS
+/// their moments.
 /// Before: aabbs of all nodes.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void instance_leaves(global const uint* order, global const InstanceRecord* instances, global const Obb* mesh_boxes,
@@ -179,8 +180,7 @@ INLINE float placed_measure(const Placed* placed, const Space* space) {
     }
     for (int k = 0; k < 3; ++k) cross3(&e[(k + 1) % 3], &e[(k + 2) % 3], &normal[k]);
 #if MEASURE_AREA
-    return sqrt(dot3(&normal[0], &normal[0])) + sqrt(dot3(&normal[1], &normal[1])) +
-           sqrt(dot3(&normal[2], &normal[2]));
+    return sqrt(dot3(&normal[0], &normal[0])) + sqrt(dot3(&normal[1], &normal[1])) + sqrt(dot3(&normal[2], &normal[2]));
 #else
     return fabs(dot3(&normal[0], &e[0]));
 #endif
@@ -188,15 +188,15 @@ INLINE float placed_measure(const Placed* placed, const Space* space) {
 
 #endif
 
-/// The box of the leaf at sorted position i as it is: the mesh's box in the mesh's space, by way of to_object. Its rows are
-/// those of the mesh's axes times to_object, scaled by a power of two.
+/// The box of the leaf at sorted position i as it is: the mesh's box in the mesh's space, by way of to_object. Its rows
+/// are those of the mesh's axes times to_object, scaled by a power of two.
 ///
 /// Widened by 9 roundoffs of what the terms amount to: to_object is the inverse rounded once (1), the rows (4) and the
-/// centre (4) take dot products; and by what a ray that is moved to object space may be off there. `around` bounds |to_world| times
-/// the box about its centre, `magnitude` the terms of the centre besides.
+/// centre (4) take dot products; and by what a ray that is moved to object space may be off there. `around` bounds
+/// |to_world| times the box about its centre, `magnitude` the terms of the centre besides.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void transform_leaves(global const uint* order, global const InstanceRecord* instances, global const Obb* mesh_boxes,
-                  global const Aabb* aabbs, global Obb* boxes, uint count, SceneSphere sphere) {
+                      global const Aabb* aabbs, global Obb* boxes, uint count, SceneSphere sphere) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const InstanceRecord* record = &instances[order[i]];

@@ -42,12 +42,13 @@ INLINE void triangle_frame(const Vector* p, const Vector* q, const Vector* r, Fr
 }
 
 /// Vertex k of a triangle.
-INLINE global const float* corner_of(global const float* positions, global const uint* triangles, uint triangle, uint k) {
+INLINE global const float* corner_of(global const float* positions, global const uint* triangles, uint triangle,
+                                     uint k) {
     return positions + 3 * (size_t)triangles[3 * (size_t)triangle + k];
 }
 
-/// The leaves at the sorted positions of one slice: their boxes; with SORTED_POINTS their `points`, see Nodes, and with MOMENTS
-/// their `moments`, BOXWOOD_MOMENT_FLOATS per node, which may be null otherwise.
+/// The leaves at the sorted positions of one slice: their boxes; with SORTED_POINTS their `points`, see Nodes, and with
+/// MOMENTS their `moments`, BOXWOOD_MOMENT_FLOATS per node, which may be null otherwise.
 /// Before: aabbs of the leaves.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void triangle_leaves(global const uint* order, global const float* positions, global const uint* triangles,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes, second part: the nodes of one level of the tree, each from its two children (dissertation 3.5). Levels
-// are by height: all nodes whose children are done, LANES at a time.
+// Oriented boxes, second part: the nodes of one level of the tree, each from its two children (dissertation 3.5).
+// Levels are by height: all nodes whose children are done, LANES at a time.
 //
 // MERGE    0: moments of all points below; 1: PCA over the 16 corners of the children's boxes ("bounded"); 2: half-way
-//          rotation of the children's boxes; 3: the cascade: points where both children are leaves, corners and points where
-//          one is, else as 2
+//          rotation of the children's boxes; 3: the cascade: points where both children are leaves, corners and points
+//          where one is, else as 2
 // EXTENTS  1: the box is made here, from the children's boxes; 0: only its axes, the extents come from obb_ranges.cl
 // POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see volumes/obb_node.h, runtime/real.h, bounds/oriented_box.h
 // compile: MERGE=0 EXTENTS=0 POINTS_PER_PRIMITIVE=3 LANES=8 MEASURE_AREA=0 FALLBACK=1
@@ -34,8 +34,9 @@ INLINE real second_share(const uint* first, const uint* second, global const uin
 }
 
 /// The moments of the children's points, merged in the parent's space.
-INLINE void merge_children(global const Aabb* aabbs, const Space* space, const uint* first, const uint* second, real share,
-                           global const float* moments, Space* first_space, Space* second_space, Moments* merged) {
+INLINE void merge_children(global const Aabb* aabbs, const Space* space, const uint* first, const uint* second,
+                           real share, global const float* moments, Space* first_space, Space* second_space,
+                           Moments* merged) {
     Moments other;
     load_moments(moments, first, merged);
     space_of(aabbs, first, first_space);
@@ -131,13 +132,12 @@ INLINE void cascade_axes(const Child* a, const Child* b, Frame* axes) {
 
 /// The nodes level[first .. first + level_count - 1].
 /// Before: aabbs of all nodes, boxes (MERGE 0: and moments) of all nodes of lower levels. After: those of these nodes.
-/// `points`, see Nodes, are read for MERGE 3, `errors` for 8 points, `moments` are read and written for MERGE 0; each may be null
-/// otherwise.
+/// `points`, see Nodes, are read for MERGE 3, `errors` for 8 points, `moments` are read and written for MERGE 0; each
+/// may be null otherwise.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void merge_level(global const uint* level, uint level_first, uint level_count, uint slice,
-                 global const uint2* children, global const uint* far_ends, global const Aabb* aabbs,
-                 global const float* points, uint stride, global const float* errors, global float* moments,
-                 global Obb* boxes, uint count) {
+void merge_level(global const uint* level, uint level_first, uint level_count, uint slice, global const uint2* children,
+                 global const uint* far_ends, global const Aabb* aabbs, global const float* points, uint stride,
+                 global const float* errors, global float* moments, global Obb* boxes, uint count) {
     const uint begin = (uint)get_global_id(0) * slice;
     if (begin >= level_count) return;
     const uint end = min(begin + slice, level_count);

@@ -17,12 +17,13 @@ typedef struct Nodes {
     global const Aabb* aabbs;   ///< 2n
     global const float* points; ///< x of all points by sorted position, then y, then z; `stride` apart.
     uint stride;
-    global const float* errors; ///< 4 per node: how far its points may be off, in each coordinate, and 0. 8 points only.
-    uint count;                 ///< n
+    global const float*
+        errors; ///< 4 per node: how far its points may be off, in each coordinate, and 0. 8 points only.
+    uint count; ///< n
 } Nodes;
 
-/// How far from its triangle a hit may lie, along each axis, in a node's space: 17 roundoffs of the triangle's longest extent
-/// (traverse/ray_triangle.h), which is less than two units.
+/// How far from its triangle a hit may lie, along each axis, in a node's space: 17 roundoffs of the triangle's longest
+/// extent (traverse/ray_triangle.h), which is less than two units.
 INLINE void hit_error(Vector* error) {
     const Vector isotropic = {36.0f * ROUNDOFF, 36.0f * ROUNDOFF, 36.0f * ROUNDOFF};
     *error = isotropic;

@@ -7,10 +7,11 @@
 //   long_chunks    the chunks of the long nodes, whichever node they belong to, each by one work-item
 //   long_nodes     joins the chunks of each long node
 //
-// No work-item reads more than a slice of short ranges or one chunk at a time, whatever the shape of the tree. Sums are made
-// in an order that depends on the range alone.
+// No work-item reads more than a slice of short ranges or one chunk at a time, whatever the shape of the tree. Sums are
+// made in an order that depends on the range alone.
 //
-// PASS   0: the covariance of the points; its eigenvectors become the node's axes. 1: the box of the points along the axes.
+// PASS   0: the covariance of the points; its eigenvectors become the node's axes. 1: the box of the points along the
+//        axes.
 // CHUNK  primitives, see above
 // JACOBI_SWEEPS  see bounds/eigen.h
 // POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see volumes/obb_node.h, runtime/real.h, bounds/oriented_box.h
@@ -95,7 +96,8 @@ INLINE void join(const float* part, float size, float total, float* result) {
     const float share = size / (size + total), rest = 1.0f - share;
     const float x = part[0] - result[0], y = part[1] - result[1], z = part[2] - result[2];
     const float both = share * rest;
-    for (int k = 0; k < 9; ++k) result[k] = k < 3 ? fma(share, part[k] - result[k], result[k]) : fma(share, part[k], rest * result[k]);
+    for (int k = 0; k < 9; ++k)
+        result[k] = k < 3 ? fma(share, part[k] - result[k], result[k]) : fma(share, part[k], rest * result[k]);
     result[3] = fma(both * x, x, result[3]);
     result[4] = fma(both * y, y, result[4]);
     result[5] = fma(both * z, z, result[5]);
@@ -117,8 +119,8 @@ INLINE void widen8(float8 a, float8* low, float8* high) {
     *high = GREATER(a, *high);
 }
 
-/// Ends of the slabs of the points [begin, end) along the three axes, 8 points at a time; the last 8 may overlap the ones
-/// before, and of a set of fewer than 8 the first counts again.
+/// Ends of the slabs of the points [begin, end) along the three axes, 8 points at a time; the last 8 may overlap the
+/// ones before, and of a set of fewer than 8 the first counts again.
 INLINE void pass_over(const Nodes* nodes, const Range* range, uint begin, uint end, float* result) {
     const float8 ax = range->axes[0], ay = range->axes[1], az = range->axes[2];
     const float8 bx = range->axes[3], by = range->axes[4], bz = range->axes[5];
@@ -199,8 +201,8 @@ INLINE void finish_nodes(const Nodes* nodes, const Space* space, float results[R
 #endif
 }
 
-/// The next up to LANES nodes from *i on that have `wanted` or more chunks (1: the long ones; 0: the short ones, which have
-/// none), *i behind the last; the lanes left over repeat one.
+/// The next up to LANES nodes from *i on that have `wanted` or more chunks (1: the long ones; 0: the short ones, which
+/// have none), *i behind the last; the lanes left over repeat one.
 INLINE uint next_nodes(global const uint* chunks, global const uint2* children, uint wanted, uint end, uint* i,
                        uint* index) {
     uint used = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes, a better frame for the large nodes, which hold most of the volume of a tree (dissertation 3.5 stops at
-// PCA). Of each node only the extreme points along fixed directions are kept, as in a k-DOP (Larsson and Kallberg 2011, for
-// their use), since the extremes of a node are among those of its children. A frame is then turned ROUNDS times about each of
-// its axes to where the box around the extremes is smallest. The start is the better of the eigenvectors of their covariance and
-// the axes of the world.
+// Oriented boxes, a better frame for the large nodes, which hold most of the volume of a tree (dissertation 3.5 stops
+// at PCA). Of each node only the extreme points along fixed directions are kept, as in a k-DOP (Larsson and Kallberg
+// 2011, for their use), since the extremes of a node are among those of its children. A frame is then turned ROUNDS
+// times about each of its axes to where the box around the extremes is smallest. The start is the better of the
+// eigenvectors of their covariance and the axes of the world.
 //
 //   refined_nodes  which nodes have at least SMALLEST primitives
 //   refined_slots  lists them
@@ -11,7 +11,8 @@
 //   refine_frames  their axes
 //
 // SMALLEST  primitives, see above
-// POINTS_PER_PRIMITIVE, LANES, MEASURE_AREA, FALLBACK  see volumes/obb_node.h, runtime/real.h, bounds/oriented_box.h; LANES is 1
+// LANES     is 1
+// POINTS_PER_PRIMITIVE, MEASURE_AREA, FALLBACK  see volumes/obb_node.h, bounds/oriented_box.h
 // compile: SMALLEST=256 POINTS_PER_PRIMITIVE=3 LANES=1 MEASURE_AREA=0 FALLBACK=1
 // compile: SMALLEST=2 POINTS_PER_PRIMITIVE=8 LANES=1 MEASURE_AREA=1 FALLBACK=0
 #include "bounds/eigen.h"
@@ -26,8 +27,8 @@
 // Points taken of a primitive: neighbours share a triangle's vertices, but nothing else has the corners of an instance.
 #define SAMPLES (POINTS_PER_PRIMITIVE == 3 ? 1 : POINTS_PER_PRIMITIVE)
 
-// The axes of a cube through its faces, edges and corners, and three more to fill two vectors; no direction is farther than
-// 28 degrees from one of them or its opposite. Their lengths do not matter.
+// The axes of a cube through its faces, edges and corners, and three more to fill two vectors; no direction is farther
+// than 28 degrees from one of them or its opposite. Their lengths do not matter.
 #define DIRECTIONS_X (float16)(1, 0, 0, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 0, 2, 1)
 #define DIRECTIONS_Y (float16)(0, 1, 0, 1, -1, 0, 0, 1, 1, 1, 1, -1, -1, 1, 0, 2)
 #define DIRECTIONS_Z (float16)(0, 0, 1, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 2, 1, 0)
@@ -49,7 +50,7 @@ INLINE void add_end(const Nodes* nodes, const Space* space, uint point, Ends* en
     Vector p;
     load_space_point(nodes, space, point, &p);
     const float16 along = fma(DIRECTIONS_X, p.x, fma(DIRECTIONS_Y, p.y, DIRECTIONS_Z * p.z));
-    const int16 lower = along < ends->low, higher = along > ends->high;
+    const int16 lower = along<ends->low, higher = along> ends->high;
     ends->low = select(ends->low, along, lower);
     ends->high = select(ends->high, along, higher);
     ends->lowest = select(ends->lowest, (uint16)(point), lower);
@@ -65,7 +66,8 @@ typedef struct Extremes {
     global uint* points;           ///< EXTREMES for each slot.
 } Extremes;
 
-/// Takes in what is kept of the points below a child: its extremes, or SAMPLES points of each primitive when it has none.
+/// Takes in what is kept of the points below a child: its extremes, or SAMPLES points of each primitive when it has
+/// none.
 INLINE void add_child(const Extremes* data, const Space* space, uint child, Ends* ends) {
     if (node_size(child, data->far_ends, data->nodes.count) >= SMALLEST) {
         global const uint* source = data->points + EXTREMES * (size_t)data->slots[child];
@@ -114,7 +116,8 @@ void refined_slots(global const uint* refined, global const uint* slots, global 
         if (refined[i]) slot_nodes[slots[i]] = i;
 }
 
-/// extremes, see Extremes. Work begins at the nodes of one slice of slots that have no refined child, and goes up from there.
+/// extremes, see Extremes. Work begins at the nodes of one slice of slots that have no refined child, and goes up from
+/// there.
 /// Before: aabbs of all nodes, the sorted points; arrivals, one per slot, are 0.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void node_extremes(global const uint2* children, global const uint* parents, global const uint* far_ends,
@@ -173,8 +176,8 @@ INLINE void take_best(float8 costs, float8 cosines, float8 sines, float* least, 
     }
 }
 
-/// Turns p and q about the third axis: eight angles over the quarter turn after which a box is the same again, then eight
-/// around the best. `steps` holds the cosines and sines of both.
+/// Turns p and q about the third axis: eight angles over the quarter turn after which a box is the same again, then
+/// eight around the best. `steps` holds the cosines and sines of both.
 INLINE void turn(const Vector* points, const Vector* axis, const float8* steps, Vector* p, Vector* q) {
     float u[EXTREMES], v[EXTREMES];
     float low = INFINITY, high = -INFINITY, low_u = INFINITY, high_u = -INFINITY, low_v = INFINITY, high_v = -INFINITY;

@@ -26,31 +26,31 @@ struct Elements {
 };
 
 Buffer<Aabb> fit_aabbs(Device& device, const Elements& elements) {
-    const auto boxes = make_scratch<Aabb>(device, elements.count, "boxes of elements");
+    auto boxes = make_scratch<Aabb>(device, elements.count, "boxes of elements");
     const Slices slices = cut(device, elements.count);
     launch(device, {file, "element_boxes", elements.defines}, "boxes of elements", slices.slices, elements.positions,
            elements.triangles, boxes, elements.count, slices.length, slices.slices);
     auto aabbs = make_scratch<Aabb>(device, elements.segments(), "boxes of segments");
-    segmented_reduce<Aabb>(device, boxes, elements.offsets, Operator::sum, aabbs);
+    segmented_reduce(device, boxes, elements.offsets, Operator::sum, aabbs);
     return aabbs;
 }
 
 Buffer<cl_float4> sum(Device& device, const Elements& elements, BufferView<const cl_float4> values) {
     auto sums = make_scratch<cl_float4>(device, elements.segments(), "moments of segments");
-    segmented_reduce<cl_float4>(device, values, elements.offsets, Operator::sum, sums);
+    segmented_reduce(device, values, elements.offsets, Operator::sum, sums);
     return sums;
 }
 
 /// The axes of `boxes`. Returns how many segments have axes that are hardly determined, flagged in `close`.
 std::uint32_t fit_axes(Device& device, const Elements& elements, BufferView<const Aabb> aabbs, BufferView<Obb> boxes,
                        BufferView<std::uint32_t> close) {
-    const auto first = make_scratch<cl_float4>(device, elements.count, "first moments");
+    auto first = make_scratch<cl_float4>(device, elements.count, "first moments");
     const Slices slices = cut(device, elements.count);
     launch(device, {file, "first_moments", elements.defines}, "first moments", slices.slices, elements.positions,
            elements.triangles, elements.offsets, aabbs, first, elements.count, elements.segments(), slices.length,
            slices.slices);
     const auto means = sum(device, elements, first);
-    const auto rest = make_scratch<cl_float4>(device, elements.count, "second moments");
+    auto rest = make_scratch<cl_float4>(device, elements.count, "second moments");
     launch(device, {file, "second_moments", elements.defines}, "second moments", slices.slices, elements.positions,
            elements.triangles, elements.offsets, aabbs, means, first, rest, elements.count, elements.segments(),
            slices.length, slices.slices);
@@ -58,20 +58,20 @@ std::uint32_t fit_axes(Device& device, const Elements& elements, BufferView<cons
     launch(device, {file, "principal_axes", elements.defines}, "principal axes", over_segments.slices, elements.offsets,
            sum(device, elements, first), sum(device, elements, rest), boxes, close, elements.segments(),
            over_segments.length, over_segments.slices);
-    const auto number = make_scratch<std::uint32_t>(device, 1, "number of close fits");
-    reduce<std::uint32_t>(device, close, Operator::sum, number);
+    auto number = make_scratch<std::uint32_t>(device, 1, "number of close fits");
+    reduce(device, close, Operator::sum, number);
     return download_element(device, number, 0);
 }
 
 Buffer<Aabb> fit_slabs(Device& device, const Elements& elements, BufferView<const Aabb> aabbs,
                        BufferView<const Obb> axes) {
-    const auto ends = make_scratch<Aabb>(device, elements.count, "ends of elements");
+    auto ends = make_scratch<Aabb>(device, elements.count, "ends of elements");
     const Slices slices = cut(device, elements.count);
     launch(device, {file, "element_slabs", elements.defines}, "ends of elements", slices.slices, elements.positions,
            elements.triangles, elements.offsets, aabbs, axes, ends, elements.count, elements.segments(), slices.length,
            slices.slices);
     auto slabs = make_scratch<Aabb>(device, elements.segments(), "ends of segments");
-    segmented_reduce<Aabb>(device, ends, elements.offsets, Operator::sum, slabs);
+    segmented_reduce(device, ends, elements.offsets, Operator::sum, slabs);
     return slabs;
 }
 
@@ -80,16 +80,16 @@ Buffer<Aabb> fit_slabs(Device& device, const Elements& elements, BufferView<cons
 Buffer<Obb> turn_axes(Device& device, const Elements& elements, BufferView<const Aabb> aabbs,
                       BufferView<const std::uint32_t> close, BufferView<const Obb> boxes) {
     constexpr std::uint32_t passes = 7; // of two directions each, as in cl/bounds/turn_obb.cl
-    const auto keys = make_scratch<cl_ulong4>(device, elements.count, "keys of elements");
-    const auto extremes = make_scratch<cl_ulong4>(device, elements.segments(), "extreme elements");
-    const auto vertices =
+    auto keys = make_scratch<cl_ulong4>(device, elements.count, "keys of elements");
+    auto extremes = make_scratch<cl_ulong4>(device, elements.segments(), "extreme elements");
+    auto vertices =
         make_scratch<std::uint32_t>(device, std::size_t(4) * passes * elements.segments(), "extreme vertices");
     const Slices slices = cut(device, elements.count), over_segments = cut(device, elements.segments());
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         launch(device, {turn_file, "extreme_keys", elements.defines}, "extreme vertices", slices.slices,
                elements.positions, elements.triangles, elements.offsets, aabbs, close, keys, pass, elements.count,
                elements.segments(), slices.length, slices.slices);
-        segmented_reduce<cl_ulong4>(device, keys, elements.offsets, Operator::max, extremes);
+        segmented_reduce(device, keys, elements.offsets, Operator::max, extremes);
         launch(device, {turn_file, "take_extremes", elements.defines}, "extreme vertices: take", over_segments.slices,
                extremes, close, vertices, pass, elements.segments(), over_segments.length, over_segments.slices);
     }
@@ -102,7 +102,7 @@ Buffer<Obb> turn_axes(Device& device, const Elements& elements, BufferView<const
 void fit(Device& device, const Elements& elements, BufferView<Obb> boxes) {
     if (elements.segments() == 0) return;
     const auto aabbs = fit_aabbs(device, elements);
-    const auto close = make_scratch<std::uint32_t>(device, elements.segments(), "close fits");
+    auto close = make_scratch<std::uint32_t>(device, elements.segments(), "close fits");
     const std::uint32_t number = fit_axes(device, elements, aabbs, boxes, close);
     const auto slabs = fit_slabs(device, elements, aabbs, boxes);
     const Slices slices = cut(device, elements.segments());
@@ -130,7 +130,7 @@ void fit_obbs(Device& device, BufferView<const float> positions, BufferView<cons
 
 void fit_mesh_obbs(Device& device, const Geometry& geometry, BufferView<Obb> boxes) {
     if (boxes.size() != geometry.meshes.size()) throw InputError("arguments", "boxes", "needs one element per mesh");
-    const auto offsets = make_scratch<std::uint32_t>(device, boxes.size() + 1, "triangles of meshes");
+    auto offsets = make_scratch<std::uint32_t>(device, boxes.size() + 1, "triangles of meshes");
     const auto count = static_cast<std::uint32_t>(geometry.triangle_count());
     launch(device, {"bounds/mesh_offsets.cl", "mesh_offsets"}, "triangles of meshes", boxes.size() + 1, geometry.meshes,
            offsets, count, static_cast<std::uint32_t>(boxes.size()));

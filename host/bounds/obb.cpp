@@ -88,8 +88,8 @@ Obb to_obb(const glm::dmat4& matrix) {
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 axis = glm::normalize(rows[k]);
         for (int c = 0; c < 3; ++c) box.axes[3 * k + c] = static_cast<float>(axis[c]);
-        // How far the box reaches along the axis as stored, from the centre as stored. Every sum of three products is off
-        // by at most 3 units of roundoff of its terms' magnitudes; there are four and two additions.
+        // How far the box reaches along the axis as stored, from the centre as stored. Every sum of three products is
+        // off by at most 3 units of roundoff of its terms' magnitudes; there are four and two additions.
         const glm::dvec3 stored = axis_of(box, k);
         double reach = std::abs(glm::dot(stored, moved)), size = glm::dot(glm::abs(stored), glm::abs(moved));
         for (int j = 0; j < 3; ++j) {

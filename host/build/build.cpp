@@ -68,4 +68,16 @@ Tree build(Device& device, const Scene& scene, const BuildOptions& options, Buil
     return tree;
 }
 
+Tree build(Device& device, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+           const BuildOptions& options, BuildReport* report) {
+    Scene scene;
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.positions.assign(positions.begin(), positions.end());
+    mesh.triangles.assign(triangles.begin(), triangles.end());
+    scene.instances.push_back({"", 0, glm::mat4(1.0f)});
+    if (triangles.empty()) scene = {};
+    validate(scene, "mesh");
+    return build(device, scene, options, report);
+}
+
 } // namespace boxwood

@@ -91,9 +91,10 @@ void check_capacity(Device& device, const BuildOptions& options, std::uint64_t t
     else
         check_each(device, {{"collapse costs", costs}, {"triangle blocks", blocks}});
 
-    // What is held at once at the least: while nodes are split, while the oriented boxes are fitted to the sorted vertices,
-    // while the layout is written from topology and volumes, or beside it all while the top level is built. What lbvh holds before
-    // there are nodes, at most 82 bytes by primitive when all have their codes in a later round, is less than the last.
+    // What is held at once at the least: while nodes are split, while the oriented boxes are fitted to the sorted
+    // vertices, while the layout is written from topology and volumes, or beside it all while the top level is built.
+    // What lbvh holds before there are nodes, at most 82 bytes by primitive when all have their codes in a later round,
+    // is less than the last.
     const std::uint64_t result = options.layout == Layout::binary ? binary_nodes + records : blocks;
     const std::uint64_t top_level =
         (topology_bytes + sizeof(Aabb)) * instances + std::max(top_splits.all, 2 * sizeof(Aabb) * instances);

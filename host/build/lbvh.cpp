@@ -32,9 +32,9 @@ Topology radix_trees(Device& device, BufferView<const Gap> gaps, Buffer<std::uin
     topology.parents = make_scratch<std::uint32_t>(device, 2 * count, "parents of nodes");
     topology.far_ends = make_scratch<std::uint32_t>(device, count, "ranges of nodes");
 
-    const Buffer<std::uint32_t> outer_ends = make_scratch<std::uint32_t>(device, 2 * count, "ends beside splits");
-    const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, count, "arrivals at splits");
-    fill<std::uint32_t>(device, arrivals, 0);
+    Buffer<std::uint32_t> outer_ends = make_scratch<std::uint32_t>(device, 2 * count, "ends beside splits");
+    Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, count, "arrivals at splits");
+    fill(device, arrivals, 0);
     const Slices slices = cut(device, count);
     launch(device, {"build/lbvh.cl", "lbvh"}, "radix tree", slices.slices, gaps, topology.children, topology.parents,
            topology.far_ends, outer_ends, arrivals, static_cast<std::uint32_t>(count), slices.length);
@@ -42,17 +42,17 @@ Topology radix_trees(Device& device, BufferView<const Gap> gaps, Buffer<std::uin
 }
 
 template <class Key>
-Topology lbvh(Device& device, BufferView<const Key> keys, KeyFormat format, Buffer<std::uint32_t> order,
-              Buffer<std::uint32_t> offsets) {
+Topology detail::lbvh(Device& device, BufferView<const Key> keys, KeyFormat format, Buffer<std::uint32_t> order,
+                      Buffer<std::uint32_t> offsets) {
     const Buffer<Gap> gaps = key_gaps<Key>(device, keys, format, offsets.size() - 1);
     return radix_trees(device, gaps, std::move(order), std::move(offsets));
 }
 
 template Buffer<Gap> key_gaps<std::uint32_t>(Device&, BufferView<const std::uint32_t>, KeyFormat, std::size_t);
 template Buffer<Gap> key_gaps<std::uint64_t>(Device&, BufferView<const std::uint64_t>, KeyFormat, std::size_t);
-template Topology lbvh<std::uint32_t>(Device&, BufferView<const std::uint32_t>, KeyFormat, Buffer<std::uint32_t>,
-                                      Buffer<std::uint32_t>);
-template Topology lbvh<std::uint64_t>(Device&, BufferView<const std::uint64_t>, KeyFormat, Buffer<std::uint32_t>,
-                                      Buffer<std::uint32_t>);
+template Topology detail::lbvh<std::uint32_t>(Device&, BufferView<const std::uint32_t>, KeyFormat,
+                                              Buffer<std::uint32_t>, Buffer<std::uint32_t>);
+template Topology detail::lbvh<std::uint64_t>(Device&, BufferView<const std::uint64_t>, KeyFormat,
+                                              Buffer<std::uint32_t>, Buffer<std::uint32_t>);
 
 } // namespace boxwood

@@ -22,7 +22,8 @@ static_assert(gap_rank(0) + 64 < 0xffff, "gaps do not fit their type");
 template <class Key>
 Buffer<Gap> key_gaps(Device& device, BufferView<const Key> keys, KeyFormat format, std::size_t trees);
 
-/// The radix trees over positions with these gaps, in one launch. `order` and `offsets` are moved into the result. O(n).
+/// The radix trees over positions with these gaps, in one launch. `order` and `offsets` are moved into the result.
+/// O(n).
 Topology radix_trees(Device& device, BufferView<const Gap> gaps, Buffer<std::uint32_t> order,
                      Buffer<std::uint32_t> offsets);
 

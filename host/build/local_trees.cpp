@@ -20,7 +20,7 @@ void append_triangles(Device& device, const Scene& flat, const std::vector<std::
         for (int k = 0; k < 3; ++k) indices.push_back(flat.meshes[0].triangles[triangle][k]);
     const std::size_t count = geometry.triangles.size();
     Buffer<std::uint32_t> all = make_buffer<std::uint32_t>(device, count + indices.size(), "triangles");
-    copy<std::uint32_t>(device, geometry.triangles, all.prefix(count));
+    copy(device, geometry.triangles, all.prefix(count));
     write(device, std::span<const std::uint32_t>(indices), all.view(), count);
     geometry.triangles = std::move(all);
 }

@@ -20,8 +20,8 @@ struct LocalTrees {
     Buffer<std::uint32_t> names;      ///< Of each triangle of the scene and of the local trees: its index in the scene.
 };
 
-/// Finds the triangles of each area in a flattened scene and adds them to geometry.triangles. Throws InputError for invalid areas
-/// and CapacityError when the trees do not fit.
+/// Finds the triangles of each area in a flattened scene and adds them to geometry.triangles. Throws InputError for
+/// invalid areas and CapacityError when the trees do not fit.
 LocalTrees add_local_triangles(Device& device, const Scene& flat, const BuildOptions& options, Geometry& geometry);
 
 /// An area as traversal needs it, but for the root of its tree.

@@ -15,9 +15,9 @@ KeyFormat key_format(MortonBits morton, std::size_t trees) {
 }
 
 template <class Key>
-void morton_keys(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets,
-                 BufferView<const Aabb> tree_bounds, KeyFormat format, BufferView<Key> keys,
-                 BufferView<std::uint32_t> order) {
+void detail::morton_keys(Device& device, BufferView<const Aabb> boxes, BufferView<const std::uint32_t> offsets,
+                         BufferView<const Aabb> tree_bounds, KeyFormat format, BufferView<Key> keys,
+                         BufferView<std::uint32_t> order) {
     const Slices slices = cut(device, boxes.size());
     const KernelRef kernel{"build/morton.cl",
                            "morton_keys",
@@ -28,11 +28,11 @@ void morton_keys(Device& device, BufferView<const Aabb> boxes, BufferView<const 
            static_cast<std::uint32_t>(tree_bounds.size()), static_cast<std::uint32_t>(boxes.size()), slices.length);
 }
 
-template void morton_keys<std::uint32_t>(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>,
-                                         BufferView<const Aabb>, KeyFormat, BufferView<std::uint32_t>,
-                                         BufferView<std::uint32_t>);
-template void morton_keys<std::uint64_t>(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>,
-                                         BufferView<const Aabb>, KeyFormat, BufferView<std::uint64_t>,
-                                         BufferView<std::uint32_t>);
+template void detail::morton_keys<std::uint32_t>(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>,
+                                                 BufferView<const Aabb>, KeyFormat, BufferView<std::uint32_t>,
+                                                 BufferView<std::uint32_t>);
+template void detail::morton_keys<std::uint64_t>(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>,
+                                                 BufferView<const Aabb>, KeyFormat, BufferView<std::uint64_t>,
+                                                 BufferView<std::uint32_t>);
 
 } // namespace boxwood

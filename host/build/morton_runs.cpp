@@ -39,11 +39,11 @@ LongRuns find_long_runs(Device& device, BufferView<const Key> keys, KeyFormat fo
     const std::uint32_t whole_trees = later ? 0 : 1;
     const std::size_t trees = offsets.size() - 1;
     const Slices slices = cut(device, count);
-    const auto all_counts = make_scratch<std::uint64_t>(device, most_slices(device, count), "counts of runs");
+    auto all_counts = make_scratch<std::uint64_t>(device, most_slices(device, count), "counts of runs");
     const BufferView<std::uint64_t> counts = all_counts.prefix(slices.slices);
     launch(device, kernel<Key>("count_runs", format, trees), "count runs", slices.slices, keys, offsets, counts,
            long_run, whole_trees, count, slices.length);
-    inclusive_scan<std::uint64_t>(device, counts, Operator::sum, counts);
+    inclusive_scan(device, counts, Operator::sum, counts);
     const std::uint64_t sums = download_element(device, all_counts, slices.slices - 1);
     if (sums == 0) return runs;
     runs.members = make_scratch<std::uint32_t>(device, static_cast<std::uint32_t>(sums), "members of runs");
@@ -64,7 +64,7 @@ struct Round {
 Buffer<std::uint32_t> gathered(Device& device, BufferView<const std::uint32_t> in,
                                BufferView<const std::uint32_t> indices, const char* label) {
     Buffer<std::uint32_t> out = make_scratch<std::uint32_t>(device, indices.size(), label);
-    gather<std::uint32_t>(device, in, indices, out);
+    gather(device, in, indices, out);
     return out;
 }
 
@@ -73,18 +73,17 @@ void sort_runs(Device& device, BufferView<const Aabb> boxes, BufferView<std::uin
     const auto primitives = gathered(device, order, round.places, "primitives of runs");
     const std::size_t count = primitives.size();
     round.keys = make_scratch<std::uint64_t>(device, count, "keys of runs");
-    const auto sorted = make_scratch<std::uint32_t>(device, count, "order in runs");
+    auto sorted = make_scratch<std::uint32_t>(device, count, "order in runs");
     {
-        const auto centres = make_scratch<Aabb>(device, count, "centres of runs");
+        auto centres = make_scratch<Aabb>(device, count, "centres of runs");
         const Slices slices = cut(device, count);
         launch(device, kernel<std::uint64_t>("run_centres", round.format, round.starts.size() - 1), "centres of runs",
                slices.slices, boxes, primitives, centres, static_cast<std::uint32_t>(count), slices.length);
         const Buffer<Aabb> bounds = bounds_of_trees(device, centres, round.starts);
-        morton_keys<std::uint64_t>(device, centres, round.starts, bounds, round.format, round.keys, sorted);
+        morton_keys(device, centres, round.starts, bounds, round.format, round.keys, sorted);
     }
-    radix_sort<std::uint64_t>(device, round.keys, sorted, 0, round.format.key_bits);
-    scatter<std::uint32_t>(device, gathered(device, primitives, sorted, "sorted primitives of runs"), round.places,
-                           order);
+    radix_sort(device, round.keys, sorted, 0, round.format.key_bits);
+    scatter(device, gathered(device, primitives, sorted, "sorted primitives of runs"), round.places, order);
 }
 
 } // namespace

@@ -35,12 +35,12 @@ TreeArrays build_tree(Device& device, const Scene& scene, const BuildOptions& op
 /// The axis-aligned boxes of `parts.bottom` from the positions in `parts.geometry`, over the topology it has.
 void refit_bottom_level(Device& device, BuildParts& parts);
 
-/// The rest of a build, from the axis-aligned boxes of the bottom level on: its oriented boxes and layout, then the top level.
-/// Of `scene` only the instances are read. Waits.
+/// The rest of a build, from the axis-aligned boxes of the bottom level on: its oriented boxes and layout, then the top
+/// level. Of `scene` only the instances are read. Waits.
 void finish_tree(Device& device, const Scene& scene, const BuildOptions& options, BuildParts& parts, TreeArrays& tree);
 
-/// The tree over instances (dissertation 3.6.2): the same passes over the boxes of the placed meshes. Fills the top arrays
-/// of `tree` and parts.top from offsets, mesh_boxes and the bounds of the trees in `parts`.
+/// The tree over instances (dissertation 3.6.2): the same passes over the boxes of the placed meshes. Fills the top
+/// arrays of `tree` and parts.top from offsets, mesh_boxes and the bounds of the trees in `parts`.
 void build_top_level(Device& device, const Scene& scene, const BuildOptions& options, BuildParts& parts,
                      TreeArrays& tree);
 

@@ -15,8 +15,8 @@ namespace boxwood {
 
 namespace {
 
-/// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for the
-/// work-items there are, and for the caches of a CPU.
+/// Primitives above which a node is split by whole launches, which is also how long their chunks are: short enough for
+/// the work-items there are, and for the caches of a CPU.
 std::uint32_t chunk_size_for(const Device& device, std::uint64_t primitives) {
     // Every level has launches to wait for: fewer are better as long as there is a subtree for every other work-item.
     const std::uint64_t length = cut(device, std::max<std::uint64_t>(primitives, 1)).length;
@@ -156,8 +156,8 @@ void TopDownBuild::write_records(BufferView<const Aabb> boxes) {
 }
 
 std::uint32_t TopDownBuild::count_next(std::uint32_t count) {
-    inclusive_scan<std::uint64_t>(device_, kinds_.prefix(count), Operator::sum, kinds_.prefix(count));
-    inclusive_scan<std::uint32_t>(device_, chunks_.prefix(count), Operator::sum, chunks_.prefix(count));
+    inclusive_scan(device_, kinds_.prefix(count), Operator::sum, kinds_.prefix(count));
+    inclusive_scan(device_, chunks_.prefix(count), Operator::sum, chunks_.prefix(count));
     const std::uint64_t kinds = download_element(device_, kinds_, count - 1);
     chunk_count_ = download_element(device_, chunks_, count - 1);
     node_count_ = static_cast<std::uint32_t>(kinds >> 32);
@@ -217,7 +217,7 @@ void TopDownBuild::build_subtrees() {
 
 void TopDownBuild::sum_marks(TopDownTree& tree) {
     const Slices slices = cut(device_, count_);
-    const Buffer<std::uint32_t> sums = make_scratch<std::uint32_t>(device_, 3 * slices.slices, "sums of marks");
+    Buffer<std::uint32_t> sums = make_scratch<std::uint32_t>(device_, 3 * slices.slices, "sums of marks");
     launch(device_, root_kernel("topdown_sum_marks"), "sum marks", slices.slices, marks_, sums, count_, slices.length);
     const std::vector<std::uint32_t> found = download(device_, sums);
     for (std::size_t i = 0; i < found.size(); i += 3) {
@@ -275,11 +275,11 @@ TopDownTree topdown_within(Device& device, BufferView<const Aabb> boxes, BufferV
     tree.topology.far_ends = make_scratch<std::uint32_t>(device, count, "ranges of nodes");
     tree.leaves = make_scratch<std::uint32_t>(device, count, "leaves");
     if (count == 0) return tree;
-    fill<std::uint32_t>(device, tree.leaves, 0);
+    fill(device, tree.leaves, 0);
     Buffer<std::uint32_t> no_areas;
     if (area_starts.size() == 0) {
         no_areas = make_scratch<std::uint32_t>(device, tree.topology.offsets.size(), "areas of trees");
-        fill<std::uint32_t>(device, no_areas, 0);
+        fill(device, no_areas, 0);
         area_starts = no_areas;
     }
     TopDownBuild builder(device, centres, tree_bounds, areas, area_starts, options, tree.topology, tree.leaves);

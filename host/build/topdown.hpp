@@ -14,7 +14,8 @@ TopDownTree topdown_within(Device& device, BufferView<const Aabb> boxes, BufferV
                            BufferView<const InfluenceRecord> areas, BufferView<const std::uint32_t> area_starts,
                            const TopDownOptions& options, bool leaves);
 
-/// Bytes that a build over `primitives` with `bins` bins needs at once, beside boxes and topology, and its largest buffer.
+/// Bytes that a build over `primitives` with `bins` bins needs at once, beside boxes and topology, and its largest
+/// buffer.
 struct TopDownBytes {
     std::uint64_t all;
     std::uint64_t largest;

@@ -25,14 +25,14 @@ Topology lbvh_topology(Device& device, BufferView<const Aabb> boxes, Buffer<std:
     Buffer<std::uint32_t> order = make_scratch<std::uint32_t>(device, boxes.size(), "sorted order");
     {
         const Stage morton = named(device, stage, "morton");
-        morton_keys<Key>(device, boxes, offsets, tree_bounds, format, keys, order);
+        morton_keys(device, boxes, offsets, tree_bounds, format, keys, order);
     }
     {
         const Stage sort = named(device, stage, "sort");
-        radix_sort<Key>(device, keys, order, 0, format.key_bits);
+        radix_sort(device, keys, order, 0, format.key_bits);
     }
     const Stage hierarchy = named(device, stage, "hierarchy");
-    const Buffer<Gap> gaps = key_gaps<Key>(device, keys, format, offsets.size() - 1);
+    Buffer<Gap> gaps = key_gaps<Key>(device, keys, format, offsets.size() - 1);
     partition_long_runs<Key>(device, boxes, keys, format, offsets, order, gaps);
     return radix_trees(device, gaps, std::move(order), std::move(offsets));
 }

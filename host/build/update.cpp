@@ -102,7 +102,7 @@ Buffer<float> AnimatedTree::State::changed_positions(std::uint32_t mesh,
                                                      const std::vector<glm::vec3>& positions) const {
     const Buffer<float>& old = parts.geometry.positions;
     Buffer<float> changed = make_buffer<float>(device, old.size(), "positions");
-    copy<float>(device, old, changed);
+    copy(device, old, changed);
     const auto overwrite = [&](std::size_t first, const std::vector<glm::vec3>& with) {
         const std::span<const float> scalars(reinterpret_cast<const float*>(with.data()), 3 * with.size());
         write(device, scalars, changed.view(), 3 * first);
@@ -125,7 +125,8 @@ Buffer<float> AnimatedTree::State::changed_positions(std::uint32_t mesh,
     return changed;
 }
 
-/// The tree over the same topology with the triangles of `scene` at `positions`, which are exchanged with those in `parts`.
+/// The tree over the same topology with the triangles of `scene` at `positions`, which are exchanged with those in
+/// `parts`.
 Tree AnimatedTree::State::fit(Buffer<float>& positions) {
     Buffer<Aabb> tree_bounds;
     Buffer<Obb> mesh_boxes;

@@ -33,8 +33,8 @@ struct Analysed {
     Analysis analysis;
 };
 
-/// The first tree is measured by `areas`, local trees each by their own. Areas are in world space; the trees of meshes below a
-/// top level, which are not, have no measures by areas.
+/// The first tree is measured by `areas`, local trees each by their own. Areas are in world space; the trees of meshes
+/// below a top level, which are not, have no measures by areas.
 std::vector<Analysed> analyse(const TreeImage& image, const Scene& scene, std::span<const InfluenceRecord> areas) {
     const std::vector<InfluenceRecord> own = stored_areas(image);
     std::vector<Analysed> result;
@@ -181,8 +181,8 @@ void print_leaves(const std::vector<Analysed>& trees, Levels levels) {
     table.print("Sizes of leaves");
 }
 
-/// Those that the tree was built with: of local trees as they are stored, so that a scene and its .bxw file agree; one tree for
-/// all rays stores none.
+/// Those that the tree was built with: of local trees as they are stored, so that a scene and its .bxw file agree; one
+/// tree for all rays stores none.
 std::vector<InfluenceRecord> areas_of(const TreeImage& image, const Prepared& prepared) {
     if (prepared.options.builder == Builder::blend) return influence_records(prepared.options.areas);
     return stored_areas(image);

@@ -19,9 +19,9 @@ struct AreaMemory {
 /// O(nodes).
 AreaMemory area_memory(const TreeImage& tree);
 
-/// "probe": [{"rays", "count", "kind", "global_cost", "local_cost", "kept"}] of areas that were judged, those of lights or of a
-/// probe. Of a tree with local trees or one that was to have them: "areas": {"kept", "index", "triangles" (by area, of a tree
-/// that was built), "global_tree_bytes", "local_tree_bytes", "area_bytes", "index_bytes"}.
+/// "probe": [{"rays", "count", "kind", "global_cost", "local_cost", "kept"}] of areas that were judged, those of lights
+/// or of a probe. Of a tree with local trees or one that was to have them: "areas": {"kept", "index", "triangles" (by
+/// area, of a tree that was built), "global_tree_bytes", "local_tree_bytes", "area_bytes", "index_bytes"}.
 void add_areas(const TreeImage& tree, const Prepared& prepared, Json& report);
 
 /// The same as lines for a summary; empty without areas.

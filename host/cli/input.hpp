@@ -37,12 +37,12 @@ struct Prepared {
     std::vector<std::string> warnings; ///< rounding_warnings.
 };
 
-/// The stored tree of a .bxw file, else one built. Prints its warnings on standard error unless `quiet`. Throws UsageError for build
-/// options beside a stored tree.
+/// The stored tree of a .bxw file, else one built. Prints its warnings on standard error unless `quiet`. Throws
+/// UsageError for build options beside a stored tree.
 Prepared prepare(Device& device, const Input& input, const BuildChoice& choice, bool quiet);
 
-/// What one level, asked for or needed by areas, loses of the scene by rounding, and what to do: one warning, or none where that is
-/// no more than rounding_limit or the levels are two.
+/// What one level, asked for or needed by areas, loses of the scene by rounding, and what to do: one warning, or none
+/// where that is no more than rounding_limit or the levels are two.
 std::vector<std::string> rounding_warnings(const Scene& scene, const BuildOptions& options);
 
 } // namespace boxwood::cli

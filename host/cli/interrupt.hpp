@@ -11,8 +11,8 @@ namespace boxwood::cli {
 /// The signals that ask a program to end: Ctrl-C, SIGTERM, and SIGHUP when its terminal is gone.
 inline constexpr std::array interrupts = {SIGINT, SIGTERM, SIGHUP};
 
-/// While it lives, this thread gets no interrupts, nor do the threads and programs that it starts. Ctrl-C goes to the linkers of a
-/// device too, and PoCL ends the process when one of them dies of it.
+/// While it lives, this thread gets no interrupts, nor do the threads and programs that it starts. Ctrl-C goes to the
+/// linkers of a device too, and PoCL ends the process when one of them dies of it.
 class InterruptsBlocked {
 public:
     InterruptsBlocked();

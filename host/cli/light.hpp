@@ -33,12 +33,12 @@ struct Surroundings {
     std::vector<std::string> warnings; ///< Of the file.
 };
 
-/// Of --environment: a file, "sky", "none", or three numbers; none when empty. `rotation` in degrees. Throws UsageError for another
-/// word and for a rotation of what is the same from all sides, InputError for a file that cannot be used.
+/// Of --environment: a file, "sky", "none", or three numbers; none when empty. `rotation` in degrees. Throws UsageError
+/// for another word and for a rotation of what is the same from all sides, InputError for a file that cannot be used.
 Surroundings surroundings(const std::string& choice, std::optional<double> rotation);
 
-/// Without --environment: the sky if nothing else lights the scene for this integrator, else none. Throws UsageError for a rotation
-/// of none.
+/// Without --environment: the sky if nothing else lights the scene for this integrator, else none. Throws UsageError
+/// for a rotation of none.
 Surroundings surroundings(Device& device, const Scene& scene, const Tree& tree, Integrator integrator,
                           std::optional<double> rotation);
 

@@ -51,7 +51,7 @@ void time_builds(Device& device, const Scene& scene, std::vector<KindResult>& ki
 /// Counts first: that also compiles nothing that is timed, so one more launch goes before the timed ones.
 void trace_kinds(Device& device, std::vector<KindResult>& kinds, const Buffer<Ray>& rays, RayCost KindResult::*cost,
                  Progress& progress) {
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     progress.step("counting");
     for (KindResult& kind : kinds) {
         (kind.*cost).work = count_work(device, kind.prepared.tree, rays);
@@ -107,16 +107,16 @@ QualityStudy study_quality(Device& device, const Input& input, const QualityChoi
     RayChoice rays = choice.rays;
     rays.kind = "primary";
     {
-        const Buffer<Ray> primary = make_rays(device, input, control, rays);
+        Buffer<Ray> primary = make_rays(device, input, control, rays);
         study.primary_rays = primary.size();
         trace_kinds(device, study.kinds, primary, &KindResult::primary, progress);
     }
     rays.kind = "diffuse";
-    const Buffer<Ray> bounce = make_rays(device, input, control, rays);
+    Buffer<Ray> bounce = make_rays(device, input, control, rays);
     study.bounce_rays = bounce.size();
     trace_kinds(device, study.kinds, bounce, &KindResult::bounce, progress);
     rays.kind = "near";
-    const Buffer<Ray> near = make_rays(device, input, control, rays);
+    Buffer<Ray> near = make_rays(device, input, control, rays);
     study.near_rays = near.size();
     progress.step("counting");
     for (KindResult& kind : study.kinds) kind.near = count_work(device, kind.prepared.tree, near);

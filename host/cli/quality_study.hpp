@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every kind of bounding volume on the same topology and layout, with the same rays: what it costs and what it is worth.
+// Every kind of bounding volume on the same topology and layout, with the same rays: what it costs and what it is
+// worth.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ struct KindResult {
     double pass_ms(const std::string& pass) const;
 };
 
-/// The passes in their order: kernels by stage; "aabb_volumes" is the pass over axis-aligned boxes, "volumes" the oriented fit
-/// that follows it, both of the bottom level; "total" is wall clock.
+/// The passes in their order: kernels by stage; "aabb_volumes" is the pass over axis-aligned boxes, "volumes" the
+/// oriented fit that follows it, both of the bottom level; "total" is wall clock.
 inline constexpr std::array quality_passes{"bounds",  "morton",   "sort",      "hierarchy", "aabb_volumes",
                                            "volumes", "collapse", "top_level", "total"};
 

@@ -48,7 +48,7 @@ Buffer<Ray> near_rays(Device& device, const Scene& scene, const RayChoice& choic
     std::vector<Ray> rays(count);
     std::vector<Hit> hits(count);
     random_hits(scene, choice.seed, rays, hits);
-    const Buffer<Ray> out = make_buffer<Ray>(device, rays.size(), "near rays");
+    Buffer<Ray> out = make_buffer<Ray>(device, rays.size(), "near rays");
     diffuse_rays(device, upload(device, scene), upload(device, rays, "rays"), upload(device, hits, "hits"), choice.seed,
                  out);
     return without_null_rays(device, out);
@@ -72,8 +72,8 @@ Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, cons
     if (choice.kind == "primary") return primary;
 
     const Geometry geometry = upload(device, input.scene);
-    const Buffer<Hit> hits = make_buffer<Hit>(device, primary.size(), "hits");
-    const Buffer<Ray> secondary = make_buffer<Ray>(device, primary.size(), "secondary rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, primary.size(), "hits");
+    Buffer<Ray> secondary = make_buffer<Ray>(device, primary.size(), "secondary rays");
     closest_hit(device, tree, primary, hits);
     if (choice.kind == "diffuse")
         diffuse_rays(device, geometry, primary, hits, choice.seed, secondary);
@@ -94,8 +94,8 @@ void add_intersector(CLI::App& command, TraceOptions& options) {
 
 RayWork count_work(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options) {
     if (rays.size() == 0) return {};
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "ray statistics");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "ray statistics");
     closest_hit(device, tree, rays, hits, statistics, options);
     RayWork work;
     std::uint64_t volumes = 0, primitives = 0;

@@ -25,9 +25,9 @@ void add_ray_options(CLI::App& command, RayChoice& choice);
 /// --intersector.
 void add_intersector(CLI::App& command, TraceOptions& options);
 
-/// Camera rays, those that leave their hits, or as many that leave random triangles as diffuse rays do, wherever the camera
-/// looks; rays that a miss would leave empty are left out, as they would flatter the rate. They do not depend on the tree, as
-/// hits do not.
+/// Camera rays, those that leave their hits, or as many that leave random triangles as diffuse rays do, wherever the
+/// camera looks; rays that a miss would leave empty are left out, as they would flatter the rate. They do not depend on
+/// the tree, as hits do not.
 Buffer<Ray> make_rays(Device& device, const Input& input, const Tree& tree, const RayChoice& choice);
 
 /// What rays cost on average.

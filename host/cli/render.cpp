@@ -225,7 +225,8 @@ void check(const Arguments& arguments) {
                   << " is there: --resume goes on from it; this render starts anew\n";
 }
 
-/// Pictures and report. Where one of them cannot be written, or not all samples are taken, they are kept for another run.
+/// Pictures and report. Where one of them cannot be written, or not all samples are taken, they are kept for another
+/// run.
 Kept write_outputs(const Arguments& arguments, const Render& render, Result& result, Json& report) {
     try {
         save_exr(arguments.output, result.image);

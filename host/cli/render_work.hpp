@@ -42,8 +42,8 @@ std::string save_checkpoint(const Render& render, const std::filesystem::path& f
 /// The same in the end; where it fails, an older checkpoint stays.
 Kept keep_samples(const Render& render, const RenderWork& work, const std::filesystem::path& file);
 
-/// Takes samples until all are done or the user interrupts; a checkpoint of the end is left to the caller. The first one that
-/// cannot be written is warned of on standard error. Waits.
+/// Takes samples until all are done or the user interrupts; a checkpoint of the end is left to the caller. The first
+/// one that cannot be written is warned of on standard error. Waits.
 RenderWork take_samples(Device& device, Render& render, std::uint32_t samples, const Checkpoints& checkpoints,
                         const InterruptGuard& guard, Progress& progress);
 

@@ -19,8 +19,8 @@ using Json = nlohmann::ordered_json;
 Json base_report(const Device& device, const Input& input, const Prepared& prepared,
                  const std::vector<std::string>& query);
 
-/// "platform", "name", "driver", "language", and whether the arithmetic is that of every other such device: "denormals",
-/// "correctly_rounded_divide_sqrt".
+/// "platform", "name", "driver", "language", and whether the arithmetic is that of every other such device:
+/// "denormals", "correctly_rounded_divide_sqrt".
 Json device_report(const DeviceInfo& info);
 
 /// Counts of a scene: "file", "meshes", "instances", "triangles", "vertices", "dropped_triangles", ...

@@ -25,7 +25,8 @@ struct Arguments {
 
 using Scenes = std::map<std::string, Mesh>;
 
-/// The scenes at hand; the others are listed as left out, and their configurations dropped. Throws InputError where none is left.
+/// The scenes at hand; the others are listed as left out, and their configurations dropped. Throws InputError where
+/// none is left.
 Scenes load_scenes(const Arguments& arguments, std::vector<Configuration>& configurations, InfluenceStudy& study) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(arguments.scenes, ignored))

@@ -79,14 +79,14 @@ Primitives upload_primitives(Device& device, const Mesh& mesh) {
     launch(device, {"bounds/primitive_bounds.cl", "triangle_bounds"}, "triangle boxes", slices.slices,
            primitives.geometry.positions, primitives.geometry.triangles, primitives.boxes, count, slices.length);
     primitives.bounds = make_buffer<Aabb>(device, 1, "bounds of triangles");
-    reduce<Aabb>(device, primitives.boxes, Operator::sum, primitives.bounds);
+    reduce(device, primitives.boxes, Operator::sum, primitives.bounds);
     return primitives;
 }
 
 /// Means over the rays.
 void follow_rays(Device& device, const MarkedTree& tree, const Buffer<Ray>& rays, TreeResult& result) {
-    const Buffer<RayVisits> visits = make_scratch<RayVisits>(device, rays.size(), "visits");
-    const Buffer<Hit> hits = make_scratch<Hit>(device, rays.size(), "hits");
+    Buffer<RayVisits> visits = make_scratch<RayVisits>(device, rays.size(), "visits");
+    Buffer<Hit> hits = make_scratch<Hit>(device, rays.size(), "hits");
     ray_visits(device, tree, rays, visits, hits);
     std::uint64_t nodes = 0, primitives = 0, nodes_to_hit = 0, primitives_to_hit = 0, hit = 0;
     for (const RayVisits& each : download(device, visits)) {

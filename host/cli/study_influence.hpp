@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The experiments of the paper's section 9 on our own builders: trees over the triangles of an influence area, and what its
-// rays pay in them.
+// The experiments of the paper's section 9 on our own builders: trees over the triangles of an influence area, and what
+// its rays pay in them.
 #pragma once
 
 #include <map>
@@ -25,9 +25,10 @@ struct StudyBuilder {
 /// The base of all ratios.
 inline constexpr const char* study_base = "SAH+LSPH";
 
-/// The paper's four builders with its parameters (8.1.1, table 1), the base first. Then what the paper lacks: surface area with all
-/// axes tried at every node (sah-axes); the same with a cost of overlap and leaves by cost (sah-best); and the last with
-/// the probabilities of the rays that come (blend), so that the two tell what knowing the rays is worth.
+/// The paper's four builders with its parameters (8.1.1, table 1), the base first. Then what the paper lacks: surface
+/// area with all axes tried at every node (sah-axes); the same with a cost of overlap and leaves by cost (sah-best);
+/// and the last with the probabilities of the rays that come (blend), so that the two tell what knowing the rays is
+/// worth.
 std::vector<StudyBuilder> study_builders();
 
 /// The five cases of the paper's table 2, all of PAH+SPFH.
@@ -52,7 +53,8 @@ struct ConfigurationResult {
     std::map<std::string, PublishedCost> published;
 };
 
-/// Builds and measures a tree of each builder over the triangles with a point in the region, and follows the same `rays` in each.
+/// Builds and measures a tree of each builder over the triangles with a point in the region, and follows the same
+/// `rays` in each.
 ConfigurationResult study_configuration(Device& device, const Configuration& configuration, const Mesh& scene,
                                         std::span<const StudyBuilder> builders, const std::vector<Ray>& rays);
 

@@ -19,9 +19,9 @@ struct PublishedCost {
 /// By builder ("SAH+LSPH", ...), by configuration ("SCENE AREA ORIENTATION").
 using Published = std::map<std::string, std::map<std::string, PublishedCost>>;
 
-/// Reads a CSV file with a head that names its columns: scene, area, orientation, builder, real_cost_local, estimated_pah_cost,
-/// estimated_sah_cost, overlap_level4, overlap_level4_culled, in any order, and others that are not read. Throws
-/// InputError naming the file and the line.
+/// Reads a CSV file with a head that names its columns: scene, area, orientation, builder, real_cost_local,
+/// estimated_pah_cost, estimated_sah_cost, overlap_level4, overlap_level4_culled, in any order, and others that are not
+/// read. Throws InputError naming the file and the line.
 Published load_published(const std::filesystem::path& file);
 
 } // namespace boxwood::cli

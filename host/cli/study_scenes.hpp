@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the influence study is about: the paper's configurations, their scenes, triangles and rays (shared by its authors).
+// What the influence study is about: the paper's configurations, their scenes, triangles and rays (shared by its
+// authors).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ struct Configuration {
     std::string name() const { return scene + ' ' + area + ' ' + orientation; }
 };
 
-/// Reads the file of load_areas, whose entries also have "scene" and "orientation". Throws InputError naming the file and the entry.
+/// Reads the file of load_areas, whose entries also have "scene" and "orientation". Throws InputError naming the file
+/// and the entry.
 std::vector<Configuration> load_configurations(const std::filesystem::path& file);
 
 /// A scene as one mesh in world space: made (Random100, Random1000), or folder/pah_NAME.glb, where Suzanne is

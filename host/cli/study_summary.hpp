@@ -50,7 +50,8 @@ std::optional<double> cost(const ConfigurationResult& result, const std::string&
 std::optional<double> cost_to_hit(const ConfigurationResult& result, const std::string& builder);
 std::optional<double> published_cost(const ConfigurationResult& result, const std::string& builder);
 
-/// The figures of `builder` over those of `base`, by `base_figure` where that is given, where both are known and not zero.
+/// The figures of `builder` over those of `base`, by `base_figure` where that is given, where both are known and not
+/// zero.
 Ratios ratios(std::span<const ConfigurationResult> results, const Group& group, const Figure& figure,
               const std::string& builder, const std::string& base, const Figure& base_figure = {});
 
@@ -58,8 +59,8 @@ Ratios ratios(std::span<const ConfigurationResult> results, const Group& group, 
 std::optional<double> mean(std::span<const ConfigurationResult> results, const Group& group, const Figure& figure,
                            const std::string& builder);
 
-/// |cost - estimate| / estimate of the projected area heuristic, culled or not, and of the surface area heuristic; and the same
-/// of what was published, whose estimates by projected area are not culled.
+/// |cost - estimate| / estimate of the projected area heuristic, culled or not, and of the surface area heuristic; and
+/// the same of what was published, whose estimates by projected area are not culled.
 std::optional<double> culled_error(const ConfigurationResult& result, const std::string& builder);
 std::optional<double> projected_error(const ConfigurationResult& result, const std::string& builder);
 std::optional<double> surface_error(const ConfigurationResult& result, const std::string& builder);
@@ -71,10 +72,11 @@ void print_study(const InfluenceStudy& study);
 
 /// Adds to a report:
 ///
-///     "configurations": [{"scene", "area", "orientation", "triangles", "hits", "costs": {BUILDER: X}, "costs_to_hit": {BUILDER: X},
-///                         "published": {BUILDER: X}, "trees": {BUILDER: {"estimated_sah", "estimated_pah", "estimated_pah_culled",
-///                         "overlap": {LEVEL: X}, "overlap_culled": {LEVEL: X}, "depth", "nodes", "splits", "axes_tried",
-///                         "fallbacks"}}}]
+///     "configurations": [{"scene", "area", "orientation", "triangles", "hits", "costs": {BUILDER: X},
+///                         "costs_to_hit": {BUILDER: X}, "published": {BUILDER: X},
+///                         "trees": {BUILDER: {"estimated_sah", "estimated_pah", "estimated_pah_culled",
+///                                             "overlap": {LEVEL: X}, "overlap_culled": {LEVEL: X}, "depth", "nodes",
+///                                             "splits", "axes_tried", "fallbacks"}}}]
 ///     "geomean", "worst", "better_in", "geomean_to_hit", "worst_to_hit", "better_in_to_hit", "published_geomean",
 ///     "published_better_in": {BUILDER: X}    of ratios to SAH+LSPH
 ///     "geomean_over_published": {BUILDER: X} of our costs over the published ones of SAH+LSPH

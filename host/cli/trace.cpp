@@ -60,7 +60,7 @@ double median_ms(Device& device, Progress& progress, const Launch& launch_rays) 
 
 Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
                      Progress& progress) {
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     Result result;
     result.median_ms = median_ms(device, progress, [&] { closest_hit(device, tree, rays, hits, options); });
     const std::vector<Hit> answers = download(device, hits);
@@ -72,7 +72,7 @@ Result trace_closest(Device& device, const Tree& tree, const Buffer<Ray>& rays, 
 
 Result trace_any(Device& device, const Tree& tree, const Buffer<Ray>& rays, const TraceOptions& options,
                  Progress& progress) {
-    const Buffer<std::uint32_t> hits = make_buffer<std::uint32_t>(device, rays.size(), "hits");
+    Buffer<std::uint32_t> hits = make_buffer<std::uint32_t>(device, rays.size(), "hits");
     Result result;
     result.median_ms = median_ms(device, progress, [&] { any_hit(device, tree, rays, hits, options); });
     const std::vector<std::uint32_t> answers = download(device, hits);
@@ -130,7 +130,7 @@ void run(const Arguments& arguments) {
     Device device = open_device(arguments.common);
     const Prepared prepared = prepare(device, input, arguments.choice, arguments.common.quiet);
     progress.step("making rays");
-    const Buffer<Ray> rays = make_rays(device, input, prepared.tree, arguments.rays);
+    Buffer<Ray> rays = make_rays(device, input, prepared.tree, arguments.rays);
     Result result;
     {
         const Stage stage(device, "trace");

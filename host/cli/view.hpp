@@ -20,9 +20,10 @@ struct View {
 /// --camera, --eye, --target and --fov.
 void add_view(CLI::App& command, View& view);
 
-/// The camera that looks from view.eye to view.target; else the one called view.camera, or with that index; else the first, and
-/// the default camera, for pictures of this size, when there is none. view.field_of_view replaces its own. Throws InputError listing the cameras, and
-/// UsageError for a view that shows nothing. Cheap enough to be called before any work.
+/// The camera that looks from view.eye to view.target; else the one called view.camera, or with that index; else the
+/// first, and the default camera, for pictures of this size, when there is none. view.field_of_view replaces its own.
+/// Throws InputError listing the cameras, and UsageError for a view that shows nothing. Cheap enough to be called
+/// before any work.
 Camera choose_camera(const Input& input, const View& view, const Resolution& resolution);
 
 } // namespace boxwood::cli

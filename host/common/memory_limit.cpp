@@ -24,8 +24,8 @@ std::uint64_t left_of(decltype(RLIMIT_AS) resource, std::uint64_t used) {
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
 }
 
-/// The least of the limits in files of this name in `group`, a path below `top`, and in the folders around it up to `top`. A
-/// container may see the files of its own group at the top, below which the path of outside is not there.
+/// The least of the limits in files of this name in `group`, a path below `top`, and in the folders around it up to
+/// `top`. A container may see the files of its own group at the top, below which the path of outside is not there.
 std::uint64_t group_limit(const fs::path& top, const fs::path& group, const char* name) {
     std::uint64_t least = unlimited;
     for (fs::path folder = top / group.relative_path();; folder = folder.parent_path()) {

@@ -30,8 +30,8 @@ std::array<glm::dvec3, 8> local_corners(const InfluenceRecord& area) {
     return corners;
 }
 
-/// Whether the points and the box [low, high] lie on different sides of a plane across `axis`, which need not be normalised,
-/// by more than rounding may be wrong.
+/// Whether the points and the box [low, high] lie on different sides of a plane across `axis`, which need not be
+/// normalised, by more than rounding may be wrong.
 bool apart(const glm::dvec3& axis, const std::array<glm::dvec3, 8>& points, const glm::dvec3& low,
            const glm::dvec3& high) {
     double box_low = 0, box_high = 0, size = 0;

@@ -28,9 +28,10 @@ struct LineArea {
 /// Fewer lines than these suggest nothing.
 inline constexpr std::size_t least_lines = 16;
 
-/// Lines through one point, to within 2^-10 of the scene's diagonal, make one point area (none where they leave it beyond 80 degrees);
-/// of others each direction that least_lines or more share, to within half a degree, makes a plane area over them. Both reach through
-/// `scene`, and a 16th farther to the sides than the lines do. An area beyond what coordinates may be is left out. O(lines^2) at most.
+/// Lines through one point, to within 2^-10 of the scene's diagonal, make one point area (none where they leave it
+/// beyond 80 degrees); of others each direction that least_lines or more share, to within half a degree, makes a plane
+/// area over them. Both reach through `scene`, and a 16th farther to the sides than the lines do. An area beyond what
+/// coordinates may be is left out. O(lines^2) at most.
 std::vector<LineArea> areas_of_lines(std::vector<Line> lines, const DoubleBox& scene);
 
 } // namespace boxwood

@@ -26,8 +26,8 @@ struct Polygon {
     double area() const;
 };
 
-/// The projection of a parallelepiped (bit k of a corner's index: which end of axis k) on the plane of the rectangle that the
-/// rays of `area` leave, which is [-1, 1]^2: of what is not before it.
+/// The projection of a parallelepiped (bit k of a corner's index: which end of axis k) on the plane of the rectangle
+/// that the rays of `area` leave, which is [-1, 1]^2: of what is not before it.
 Polygon projection(const InfluenceRecord& area, std::span<const glm::dvec3, 8> corners);
 
 /// The part of `polygon` within [-1, 1]^2.

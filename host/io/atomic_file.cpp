@@ -51,8 +51,8 @@ pid_t process_of(std::string_view entry, const std::string& name) {
 /// This one's number may be that of a dead process too, in a container, where they start anew: locks tell.
 bool may_be_dead(pid_t process) { return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH); }
 
-/// Removes the file if no process has it locked, as whoever writes it does. A process that opened it and has no lock yet finds it
-/// gone when it has, by the number of links.
+/// Removes the file if no process has it locked, as whoever writes it does. A process that opened it and has no lock
+/// yet finds it gone when it has, by the number of links.
 void remove_unlocked(const fs::path& file) {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return;

@@ -11,14 +11,14 @@ namespace boxwood {
 
 /// A file that appears under its name whole or not at all. Bytes go to a temporary name in the same folder, made of
 /// the name, the process id and a count, so that neither two processes nor two threads share one; commit() renames it.
-/// A process that dies in between leaves at most the temporary, which the next one of the same name removes: the lock that a
-/// temporary has while it is written tells those of the dead. Not synchronised to disk: it guards against a failing or killed
-/// program, not against a power cut.
+/// A process that dies in between leaves at most the temporary, which the next one of the same name removes: the lock
+/// that a temporary has while it is written tells those of the dead. Not synchronised to disk: it guards against a
+/// failing or killed program, not against a power cut.
 class AtomicFile {
 public:
-    /// Opens the temporary, and removes those of `path` that processes left which are certainly dead. Throws OutputError naming
-    /// `path` when its folder is missing or not writable, or when `path` exists and is not a regular file (so that a device or a
-    /// folder is never replaced).
+    /// Opens the temporary, and removes those of `path` that processes left which are certainly dead. Throws
+    /// OutputError naming `path` when its folder is missing or not writable, or when `path` exists and is not a regular
+    /// file (so that a device or a folder is never replaced).
     explicit AtomicFile(const std::filesystem::path& path);
 
     /// Removes the temporary unless commit() has succeeded. Never throws.
@@ -31,8 +31,9 @@ public:
     /// writers need no check of their own.
     std::ostream& stream() { return stream_; }
 
-    /// Flushes, closes and renames, replacing an older file. Throws OutputError naming the file and the system's reason when any
-    /// write failed (disk full, for example) or the rename does; the older file is then untouched. Call it once, last.
+    /// Flushes, closes and renames, replacing an older file. Throws OutputError naming the file and the system's reason
+    /// when any write failed (disk full, for example) or the rename does; the older file is then untouched. Call it
+    /// once, last.
     void commit();
 
 private:

@@ -115,7 +115,8 @@ std::vector<std::byte> load_file(const GltfDocument& document, const std::string
                                  Warnings& warnings) {
     if (has_scheme(uri)) document.fail(where, "is neither a data URI nor a relative path: " + excerpt(uri));
     if (document.folder.empty()) document.fail(where, "names a file, and this scene has no folder: " + excerpt(uri));
-    // What careless exporters write is tried last: names that are not escaped though they contain a percent sign, backslashes.
+    // What careless exporters write is tried last: names that are not escaped though they contain a percent sign,
+    // backslashes.
     const std::string decoded = percent_decode(uri);
     std::vector<std::string> tries{decoded};
     if (decoded != uri) tries.push_back(uri);
@@ -134,7 +135,8 @@ std::vector<std::byte> load_file(const GltfDocument& document, const std::string
     document.fail(where, "does not exist: " + excerpt(decoded));
 }
 
-/// Throws InputError when the data that the buffer should have is not there; `compression` is what may have taken its place.
+/// Throws InputError when the data that the buffer should have is not there; `compression` is what may have taken its
+/// place.
 std::span<const std::byte> load_buffer(GltfDocument& document, const nlohmann::json& buffer, std::size_t index,
                                        std::span<const std::byte> binary_chunk, const std::string& compression,
                                        Warnings& warnings) {

@@ -10,8 +10,8 @@ namespace boxwood {
 
 namespace {
 
-// A parent with unequal scale shears the frame below it, and a mirrored one turns it left-handed. Then the view keeps its
-// direction and its up. A frame that is orthogonal but for rounding passes unchanged.
+// A parent with unequal scale shears the frame below it, and a mirrored one turns it left-handed. Then the view keeps
+// its direction and its up. A frame that is orthogonal but for rounding passes unchanged.
 glm::dmat4 without_shear(const glm::dmat4& frame) {
     const glm::dvec3 x(frame[0]);
     const glm::dvec3 y(frame[1]);

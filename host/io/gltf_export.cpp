@@ -37,7 +37,8 @@ constexpr ElementType floats2{"5126", "VEC2"}, floats3{"5126", "VEC3"}, floats4{
 
 std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
-/// The binary chunk: arrays as they lie in memory, each a buffer view at a multiple of four bytes, and the accessors into them.
+/// The binary chunk: arrays as they lie in memory, each a buffer view at a multiple of four bytes, and the accessors
+/// into them.
 class Binary {
 public:
     /// Gives the view's index. `target` is "" for none.

@@ -15,8 +15,8 @@ inline constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlo
 /// Throws InputError naming the first required extension that Boxwood does not support and that may change geometry.
 void check_required_extensions(const nlohmann::json& root, const std::string& file);
 
-/// One warning for each extension that the file uses or requires and Boxwood does not read, saying what stands in for it. Comes after
-/// check_required_extensions.
+/// One warning for each extension that the file uses or requires and Boxwood does not read, saying what stands in for
+/// it. Comes after check_required_extensions.
 void warn_of_extensions(const nlohmann::json& root, Warnings& warnings);
 
 /// The extension that the file uses in which compressed data may stand in for a buffer's, by name; empty for none.

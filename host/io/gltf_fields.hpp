@@ -24,8 +24,9 @@ struct FieldReport {
     Warnings& warnings;      ///< Of what was mended.
 };
 
-/// One JSON object, the way its fields are checked, and what exporters get wrong without harm put right: members that are null or
-/// empty are taken out, as are references of -1. `Path` makes the element's name, and only when it is needed.
+/// One JSON object, the way its fields are checked, and what exporters get wrong without harm put right: members that
+/// are null or empty are taken out, as are references of -1. `Path` makes the element's name, and only when it is
+/// needed.
 template <class Path>
 class Fields {
 public:

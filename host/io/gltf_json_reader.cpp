@@ -41,7 +41,8 @@ bool contains(const List& list, const std::string& word) {
 
 } // namespace
 
-// The number of open objects and arrays is 1 in the root, 3 in an element of a root array, 4 in an object of that element.
+// The number of open objects and arrays is 1 in the root, 3 in an element of a root array, 4 in an object of that
+// element.
 bool GltfJsonReader::keep(const std::string& key) {
     const std::size_t depth = open_.size();
     if (depth == 1) section_ = key;

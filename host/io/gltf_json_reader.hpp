@@ -9,9 +9,9 @@
 
 namespace boxwood {
 
-/// Builds a JSON document from parser events and leaves out, key by key, what Boxwood never reads: animations and the like
-/// never take memory, and no kept value is nested so deeply that a recursive pass over it could run out of stack. A whole
-/// number is kept as an integer however it is written: 4, 4.0 and 4e0 are the same number in JSON.
+/// Builds a JSON document from parser events and leaves out, key by key, what Boxwood never reads: animations and the
+/// like never take memory, and no kept value is nested so deeply that a recursive pass over it could run out of stack.
+/// A whole number is kept as an integer however it is written: 4, 4.0 and 4e0 are the same number in JSON.
 /// The parser itself does not recurse. Every failure is thrown as an InputError.
 class GltfJsonReader : public nlohmann::json_sax<nlohmann::json> {
 public:

@@ -127,8 +127,9 @@ private:
         return use;
     }
 
-    /// Scale first, then the turn, then the offset. Coordinates turn counter-clockwise as one sees them with v growing downwards, as
-    /// glTF's own viewer and three.js have it (the listing in older texts of the extension turns the other way).
+    /// Scale first, then the turn, then the offset. Coordinates turn counter-clockwise as one sees them with v growing
+    /// downwards, as glTF's own viewer and three.js have it (the listing in older texts of the extension turns the
+    /// other way).
     glm::mat3 load_transform(const json& from, const std::string& where) {
         const auto offset = vector_at(from, "offset", glm::vec2(0.0f), any, where, warnings_);
         const auto scale = vector_at(from, "scale", glm::vec2(1.0f), any, where, warnings_);
@@ -165,7 +166,8 @@ private:
         return material;
     }
 
-    /// The diffuse part stands in for the whole: base colour of a surface that is no metal, and as rough as the default.
+    /// The diffuse part stands in for the whole: base colour of a surface that is no metal, and as rough as the
+    /// default.
     void load_specular_glossiness(const json& from, const std::string& where, Material& material) {
         const json& extensions = object_at(from, "extensions");
         if (!extensions.contains(specular_glossiness)) return;

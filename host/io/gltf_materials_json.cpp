@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks of what a glTF file says about materials, textures and lights; numbers out of range are corrected where they are read.
+// Checks of what a glTF file says about materials, textures and lights; numbers out of range are corrected where they
+// are read.
 #include "io/gltf_extensions.hpp"
 #include "io/gltf_fields.hpp"
 

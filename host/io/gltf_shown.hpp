@@ -18,8 +18,8 @@ struct ShownMesh {
     glm::dmat4 to_world; ///< Without effect on a skinned mesh.
 };
 
-/// In the order of `nodes`. A skinned node's instances would all be the same, so that it shows one, with a warning. Meshes
-/// exist. Throws InputError for attributes of instances that differ in count, are none, or cannot be read.
+/// In the order of `nodes`. A skinned node's instances would all be the same, so that it shows one, with a warning.
+/// Meshes exist. Throws InputError for attributes of instances that differ in count, are none, or cannot be read.
 /// O(nodes + instances).
 std::vector<ShownMesh> shown_meshes(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
                                     Warnings& warnings);

@@ -15,8 +15,8 @@ namespace boxwood {
 
 namespace {
 
-/// Sums in double, which no numbers of a file can make overflow. What the file gets wrong counts as nothing here and is named where
-/// it is read.
+/// Sums in double, which no numbers of a file can make overflow. What the file gets wrong counts as nothing here and is
+/// named where it is read.
 class SizeCheck {
 public:
     explicit SizeCheck(const GltfDocument& document) : document_(document) {}

@@ -14,7 +14,8 @@ class Warnings {
 public:
     void add(const std::string& where, const std::string& what);
 
-    /// A fault that exporters repeat all over a file: one line for each `what`, which names the first place and counts the others.
+    /// A fault that exporters repeat all over a file: one line for each `what`, which names the first place and counts
+    /// the others.
     void add_repeated(const std::string& where, const std::string& what);
 
     std::vector<std::string> take();

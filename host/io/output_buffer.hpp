@@ -6,8 +6,9 @@
 
 namespace boxwood {
 
-/// Buffers what is written to a file descriptor, which it does not own, and keeps the system's reason of the first write that
-/// failed, which std::filebuf forgets. Seekable where the descriptor is. After a failure nothing more is written.
+/// Buffers what is written to a file descriptor, which it does not own, and keeps the system's reason of the first
+/// write that failed, which std::filebuf forgets. Seekable where the descriptor is. After a failure nothing more is
+/// written.
 class OutputBuffer : public std::streambuf {
 public:
     explicit OutputBuffer(int descriptor);

@@ -45,9 +45,9 @@ struct Collapse {
 /// The choices of cl/layout/plan.h for every inner node.
 Buffer<std::uint32_t> plan_collapse(const Collapse& c) {
     Buffer<std::uint32_t> plans = make_scratch<std::uint32_t>(c.device, c.count, "collapse choices");
-    const Buffer<float> costs = make_scratch<float>(c.device, 8 * static_cast<std::size_t>(c.count), "collapse costs");
-    const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(c.device, c.count, "arrivals at splits");
-    fill<std::uint32_t>(c.device, arrivals, 0);
+    Buffer<float> costs = make_scratch<float>(c.device, 8 * static_cast<std::size_t>(c.count), "collapse costs");
+    Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(c.device, c.count, "arrivals at splits");
+    fill(c.device, arrivals, 0);
     const Slices slices = cut(c.device, c.count);
     launch(c.device, {"layout/collapse_cost.cl", "collapse_cost", c.cost_model()}, "collapse costs", slices.slices,
            c.volumes, c.topology.children, c.topology.parents, c.topology.far_ends, arrivals, costs, plans, c.count,
@@ -71,7 +71,7 @@ Level choose_children(const Collapse& c, BufferView<const std::uint32_t> sources
     const Slices slices = cut(c.device, level.size);
     launch(c.device, c.kernel("choose_children"), "choose children", slices.slices, c.topology.children, c.plans,
            sources, level.children, level.starts, c.count, level.size, slices.length);
-    exclusive_scan<std::uint64_t>(c.device, level.starts, Operator::sum, level.starts);
+    exclusive_scan(c.device, level.starts, Operator::sum, level.starts);
     return level;
 }
 

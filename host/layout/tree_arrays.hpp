@@ -41,11 +41,13 @@ using detail::TreeArrays;
 /// An empty layout of the kind.
 AnyLayout empty_layout(Layout layout, Bounds bounds);
 
-/// `trees` in that layout, over the triangles of `geometry` or, without, over instances; `names` as for collapse_wide. Waits.
+/// `trees` in that layout, over the triangles of `geometry` or, without, over instances; `names` as for collapse_wide.
+/// Waits.
 AnyLayout collapse(Device& device, Layout layout, Bounds bounds, const BinaryTrees& trees, const Geometry* geometry,
                    BufferView<const std::uint32_t> names = {});
 
-/// run(bottom, top), both WideLayout, BinaryLayout or OrientedLayout: the only place where kernels and files meet the kind.
+/// run(bottom, top), both WideLayout, BinaryLayout or OrientedLayout: the only place where kernels and files meet the
+/// kind.
 template <class Run>
 decltype(auto) visit_layout(const TreeArrays& tree, const Run& run) {
     return std::visit([&]<class One>(const One& bottom) { return run(bottom, std::get<One>(tree.top)); }, tree.bottom);

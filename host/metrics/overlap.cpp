@@ -19,11 +19,11 @@ struct Sampled {
 Sampled sample(Device& device, const BinaryTrees& trees, BufferView<const Triangle> triangles, float unit,
                std::uint32_t samples) {
     const Topology& topology = trees.topology;
-    const Buffer<float> fractions = make_scratch<float>(device, samples, "fractions of triangles in nodes");
-    const Buffer<float> areas = make_scratch<float>(device, samples, "areas of triangles");
-    const Buffer<std::uint32_t> visits = make_scratch<std::uint32_t>(device, samples, "nodes looked at");
+    Buffer<float> fractions = make_scratch<float>(device, samples, "fractions of triangles in nodes");
+    Buffer<float> areas = make_scratch<float>(device, samples, "areas of triangles");
+    Buffer<std::uint32_t> visits = make_scratch<std::uint32_t>(device, samples, "nodes looked at");
     const bool oriented = trees.boxes.size() > 0;
-    const Buffer<Obb> none = make_scratch<Obb>(device, oriented ? 0 : 1, "no oriented boxes");
+    Buffer<Obb> none = make_scratch<Obb>(device, oriented ? 0 : 1, "no oriented boxes");
     launch(device, {"metrics/overlap.cl", "end_point_overlap", {{"ORIENTED", oriented ? "1" : "0"}}},
            "end-point overlap", samples, topology.children, topology.parents, topology.far_ends, topology.offsets,
            trees.volumes, oriented ? trees.boxes.view() : none.view(), triangles, fractions, areas, visits, unit,
@@ -44,7 +44,8 @@ double end_point_overlap(Device& device, const BinaryTrees& trees, BufferView<co
     const Stage stage(device, "quality");
     const float unit = unit_of_lengths(device, trees);
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(trees.topology.size(), overlap_samples));
-    // Where triangles lie on each other, each visits all the others' nodes: what few samples cost says how many to take.
+    // Where triangles lie on each other, each visits all the others' nodes: what few samples cost says how many to
+    // take.
     std::uint32_t samples = std::min<std::uint32_t>(most, overlap_samples / 256);
     Sampled result = sample(device, trees, triangles, unit, samples);
     while (samples < most && 4 * result.visits <= overlap_visits) {

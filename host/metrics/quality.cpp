@@ -24,29 +24,29 @@ Half measure_half(Device& device, const BinaryTrees& trees, std::uint32_t first,
     const auto count = static_cast<std::uint32_t>(trees.topology.size());
     Half half;
     half.node_areas = make_scratch<float>(device, count, "areas of nodes");
-    const Buffer<float> volumes = make_scratch<float>(device, count, "volumes of nodes");
+    Buffer<float> volumes = make_scratch<float>(device, count, "volumes of nodes");
     if (trees.boxes.size() == 0) {
         launch(device, {"metrics/quality.cl", "aabb_measures"}, "node measures", count, trees.volumes, half.node_areas,
                volumes, unit, first, count);
     } else {
-        const Buffer<std::uint32_t> fitted = make_scratch<std::uint32_t>(device, count, "fitted nodes");
+        Buffer<std::uint32_t> fitted = make_scratch<std::uint32_t>(device, count, "fitted nodes");
         launch(device, {"metrics/quality.cl", "obb_measures"}, "node measures", count, trees.volumes, trees.boxes,
                half.node_areas, volumes, fitted, unit, first, count);
-        const Buffer<std::uint32_t> sum = make_scratch<std::uint32_t>(device, 1, "fitted nodes");
-        reduce<std::uint32_t>(device, fitted, Operator::sum, sum);
+        Buffer<std::uint32_t> sum = make_scratch<std::uint32_t>(device, 1, "fitted nodes");
+        reduce(device, fitted, Operator::sum, sum);
         half.fitted = download_element(device, sum, 0);
     }
-    const Buffer<float> sums = make_scratch<float>(device, trees.topology.trees(), "sums over trees");
-    segmented_reduce<float>(device, half.node_areas, trees.topology.offsets, Operator::sum, sums);
+    Buffer<float> sums = make_scratch<float>(device, trees.topology.trees(), "sums over trees");
+    segmented_reduce(device, half.node_areas, trees.topology.offsets, Operator::sum, sums);
     half.areas = download(device, sums);
-    segmented_reduce<float>(device, volumes, trees.topology.offsets, Operator::sum, sums);
+    segmented_reduce(device, volumes, trees.topology.offsets, Operator::sum, sums);
     half.volumes = download(device, sums);
     return half;
 }
 
 std::vector<float> root_areas(Device& device, const BinaryTrees& trees, const Half& inner, const Half& leaves) {
     const auto tree_count = static_cast<std::uint32_t>(trees.topology.trees());
-    const Buffer<float> roots = make_scratch<float>(device, tree_count, "areas of roots");
+    Buffer<float> roots = make_scratch<float>(device, tree_count, "areas of roots");
     launch(device, {"metrics/quality.cl", "root_areas"}, "root areas", tree_count, inner.node_areas, leaves.node_areas,
            trees.topology.offsets, roots, tree_count);
     return download(device, roots);

@@ -9,8 +9,8 @@
 
 namespace boxwood {
 
-/// Metrics of all trees by the boxes that its nodes have: oriented ones where `boxes` is not empty and the node does not
-/// keep its AABB.
+/// Metrics of all trees by the boxes that its nodes have: oriented ones where `boxes` is not empty and the node does
+/// not keep its AABB.
 struct TreeQuality {
     LevelQuality sums;
     std::uint64_t nodes = 0;       ///< Nodes that `sums` is over.
@@ -29,8 +29,8 @@ float unit_of_lengths(Device& device, const BinaryTrees& trees);
 /// Sums over both levels.
 LevelQuality total(const TreeQuality& bottom, const TreeQuality& top);
 
-/// The SAH cost of two levels: top nodes, then each instance's bottom tree weighted by the probability to reach its box.
-/// `top` has its leaf areas.
+/// The SAH cost of two levels: top nodes, then each instance's bottom tree weighted by the probability to reach its
+/// box. `top` has its leaf areas.
 double two_level_sah(const TreeQuality& bottom, const TreeQuality& top, const std::vector<InstanceRecord>& instances);
 
 } // namespace boxwood

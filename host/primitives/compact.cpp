@@ -4,25 +4,25 @@
 #include "primitives/element.hpp"
 #include "primitives/scan.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 template <class T>
 void compact(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> flags, BufferView<T> out,
              BufferView<std::uint32_t> count) {
-    primitives::require(flags.size() == in.size(), "flags", "needs as many entries as in has elements");
-    primitives::require(out.size() >= in.size(), "out", "has fewer elements than in");
-    primitives::require(count.size() >= 1, "count", "needs room for one element");
+    detail::require(flags.size() == in.size(), "flags", "needs as many entries as in has elements");
+    detail::require(out.size() >= in.size(), "out", "has fewer elements than in");
+    detail::require(count.size() >= 1, "count", "needs room for one element");
     if (in.size() == 0) return fill(device, count.prefix(1), 0);
 
-    const KernelRef count_kernel{"primitives/compact.cl", "compact_count", primitives::bits_defines<T>()};
-    const KernelRef move_kernel{"primitives/compact.cl", "compact", primitives::bits_defines<T>()};
+    const KernelRef count_kernel{"primitives/compact.cl", "compact_count", detail::bits_defines<T>()};
+    const KernelRef move_kernel{"primitives/compact.cl", "compact", detail::bits_defines<T>()};
     const Slices slices = cut(device, in.size());
     const std::size_t most = most_slices(device, in.size());
-    const auto kept = make_scratch<std::uint32_t>(device, most, "kept elements by slice");
-    const auto before = make_scratch<std::uint32_t>(device, most, "kept elements before slices");
+    auto kept = make_scratch<std::uint32_t>(device, most, "kept elements by slice");
+    auto before = make_scratch<std::uint32_t>(device, most, "kept elements before slices");
     launch(device, count_kernel, "compact: count", slices.slices, flags, kept, static_cast<cl_uint>(in.size()),
            slices.length, slices.slices);
-    primitives::exclusive_sums(device, kept.prefix(slices.slices), before.prefix(slices.slices), most);
+    detail::exclusive_sums(device, kept.prefix(slices.slices), before.prefix(slices.slices), most);
     launch(device, move_kernel, "compact: move", slices.slices, in, flags, before, kept, out, count, slices.length,
            slices.slices);
 }
@@ -40,4 +40,4 @@ template void compact(Device&, BufferView<const cl_float4>, BufferView<const std
 template void compact(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, BufferView<Aabb>,
                       BufferView<std::uint32_t>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -12,7 +12,7 @@
 #include "runtime/launch.hpp"
 #include "shared/aabb.h"
 
-namespace boxwood::primitives {
+namespace boxwood::detail {
 
 /// Elements folded in one go; TILE of cl/primitives/operator.h.
 inline constexpr std::size_t tile = 1024;
@@ -85,4 +85,4 @@ void reduce_tiles(Device& device, BufferView<const T> in, const Defines& defines
            static_cast<cl_uint>(count), slices.length, slices.slices);
 }
 
-} // namespace boxwood::primitives
+} // namespace boxwood::detail

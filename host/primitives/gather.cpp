@@ -3,14 +3,14 @@
 
 #include "primitives/element.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 template <class T>
 void gather(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> indices, BufferView<T> out) {
-    primitives::require(out.size() >= indices.size(), "out", "has fewer elements than indices");
+    detail::require(out.size() >= indices.size(), "out", "has fewer elements than indices");
     const Slices slices = cut(device, indices.size());
-    launch(device, {"primitives/gather.cl", "gather", primitives::bits_defines<T>()}, "gather", slices.slices, in,
-           indices, out, static_cast<cl_uint>(indices.size()), slices.length, slices.slices);
+    launch(device, {"primitives/gather.cl", "gather", detail::bits_defines<T>()}, "gather", slices.slices, in, indices,
+           out, static_cast<cl_uint>(indices.size()), slices.length, slices.slices);
 }
 
 template void gather(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>,
@@ -23,4 +23,4 @@ template void gather(Device&, BufferView<const float>, BufferView<const std::uin
 template void gather(Device&, BufferView<const cl_float4>, BufferView<const std::uint32_t>, BufferView<cl_float4>);
 template void gather(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, BufferView<Aabb>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -7,7 +7,7 @@
 #include "primitives/element.hpp"
 #include "primitives/scan.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Pairs {
 /// Sorts `from` into `to` by the `bits` bits of the key above `shift`.
 template <class Key>
 void sort_pass(Device& device, const Pairs<Key>& from, const Pairs<Key>& to, int shift, int bits) {
-    const Defines defines{{"KEY", primitives::Element<Key>::scalar},
+    const Defines defines{{"KEY", detail::Element<Key>::scalar},
                           {"DIGIT_BITS", std::to_string(most_digit_bits(device))}};
     const std::size_t digits = std::size_t{1} << bits;
     const auto count = static_cast<cl_uint>(from.keys.size());
@@ -36,11 +36,11 @@ void sort_pass(Device& device, const Pairs<Key>& from, const Pairs<Key>& to, int
     // Slices of a few times as many pairs as there are digits: counting and scanning stay cheap beside moving.
     const Slices slices = cut(device, count, 4 * digits);
     const std::size_t most_counts = digits * most_slices(device, count, 4 * digits);
-    const auto scratch = make_scratch<std::uint32_t>(device, most_counts, "digit counts");
+    auto scratch = make_scratch<std::uint32_t>(device, most_counts, "digit counts");
     const BufferView<std::uint32_t> counts = scratch.prefix(digits * slices.slices);
     launch(device, {"primitives/radix_sort.cl", "radix_count", defines}, "radix sort: count", slices.slices, from.keys,
            counts, count, first_bit, mask, slices.length, slices.slices);
-    primitives::exclusive_sums(device, counts, counts, most_counts);
+    detail::exclusive_sums(device, counts, counts, most_counts);
     launch(device, {"primitives/radix_sort.cl", "radix_move", defines}, "radix sort: move", slices.slices, from.keys,
            from.values, counts, to.keys, to.values, count, first_bit, mask, slices.length, slices.slices);
 }
@@ -49,14 +49,14 @@ void sort_pass(Device& device, const Pairs<Key>& from, const Pairs<Key>& to, int
 
 template <class Key>
 void radix_sort(Device& device, BufferView<Key> keys, BufferView<std::uint32_t> values, int first_bit, int last_bit) {
-    primitives::require(values.size() == keys.size(), "values", "needs as many elements as keys");
-    primitives::require(first_bit >= 0 && first_bit <= last_bit && last_bit <= 8 * static_cast<int>(sizeof(Key)),
-                        "first_bit, last_bit", "must be an ascending range of the key's bits");
+    detail::require(values.size() == keys.size(), "values", "needs as many elements as keys");
+    detail::require(first_bit >= 0 && first_bit <= last_bit && last_bit <= 8 * static_cast<int>(sizeof(Key)),
+                    "first_bit, last_bit", "must be an ascending range of the key's bits");
     const std::size_t count = keys.size();
     if (count < 2 || first_bit == last_bit) return;
 
-    const auto spare_keys = make_scratch<Key>(device, count, "sorted keys");
-    const auto spare_values = make_scratch<std::uint32_t>(device, count, "sorted values");
+    auto spare_keys = make_scratch<Key>(device, count, "sorted keys");
+    auto spare_values = make_scratch<std::uint32_t>(device, count, "sorted values");
     Pairs<Key> from{keys, values}, to{spare_keys, spare_values};
     const int most = most_digit_bits(device);
     const int passes = (last_bit - first_bit + most - 1) / most;
@@ -67,12 +67,12 @@ void radix_sort(Device& device, BufferView<Key> keys, BufferView<std::uint32_t> 
         bit += bits;
     }
     if (passes % 2 != 0) {
-        copy<Key>(device, spare_keys, keys);
-        copy<std::uint32_t>(device, spare_values, values);
+        copy(device, spare_keys, keys);
+        copy(device, spare_values, values);
     }
 }
 
 template void radix_sort(Device&, BufferView<std::uint32_t>, BufferView<std::uint32_t>, int, int);
 template void radix_sort(Device&, BufferView<std::uint64_t>, BufferView<std::uint32_t>, int, int);
 
-} // namespace boxwood
+} // namespace boxwood::detail

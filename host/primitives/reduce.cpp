@@ -3,20 +3,20 @@
 
 #include "primitives/element.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 template <class T>
 void reduce(Device& device, BufferView<const T> in, Operator op, BufferView<T> out) {
-    primitives::require(out.size() >= 1, "out", "needs room for one element");
-    const Defines defines = primitives::operator_defines<T>(op);
+    detail::require(out.size() >= 1, "out", "needs room for one element");
+    const Defines defines = detail::operator_defines<T>(op);
     Buffer<T> level;
-    for (std::size_t tiles = primitives::tiles_of(in.size()); tiles > 1; tiles = primitives::tiles_of(tiles)) {
+    for (std::size_t tiles = detail::tiles_of(in.size()); tiles > 1; tiles = detail::tiles_of(tiles)) {
         Buffer<T> next = make_scratch<T>(device, tiles, "reduced tiles");
-        primitives::reduce_tiles<T>(device, in, defines, next.view());
+        detail::reduce_tiles<T>(device, in, defines, next.view());
         level = std::move(next);
         in = level;
     }
-    primitives::reduce_tiles<T>(device, in, defines, out);
+    detail::reduce_tiles<T>(device, in, defines, out);
 }
 
 template void reduce(Device&, BufferView<const std::int32_t>, Operator, BufferView<std::int32_t>);
@@ -26,4 +26,4 @@ template void reduce(Device&, BufferView<const float>, Operator, BufferView<floa
 template void reduce(Device&, BufferView<const cl_float4>, Operator, BufferView<cl_float4>);
 template void reduce(Device&, BufferView<const Aabb>, Operator, BufferView<Aabb>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

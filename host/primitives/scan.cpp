@@ -7,7 +7,7 @@
 #include "primitives/element.hpp"
 #include "primitives/scan.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 namespace {
 
@@ -18,7 +18,7 @@ using Levels = std::vector<Buffer<T>>;
 template <class T>
 Levels<T> make_levels(Device& device, std::size_t count) {
     Levels<T> levels;
-    for (std::size_t tiles = primitives::tiles_of(count); tiles > 1; tiles = primitives::tiles_of(tiles))
+    for (std::size_t tiles = detail::tiles_of(count); tiles > 1; tiles = detail::tiles_of(tiles))
         levels.push_back(make_scratch<T>(device, tiles, "scanned tiles"));
     return levels;
 }
@@ -26,26 +26,26 @@ Levels<T> make_levels(Device& device, std::size_t count) {
 /// The fold of everything before each tile is the exclusive scan of the tiles' folds: one level up, the same again.
 template <class T>
 void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclusive, BufferView<T> out,
-          const Levels<T>& levels, std::size_t level = 0) {
-    const std::size_t tiles = primitives::tiles_of(in.size());
+          Levels<T>&& levels, std::size_t level = 0) {
+    const std::size_t tiles = detail::tiles_of(in.size());
     BufferView<T> before;
     if (tiles > 1) {
         before = levels[level].prefix(tiles);
-        primitives::reduce_tiles<T>(device, in, op, before);
-        scan<T>(device, before, op, false, before, levels, level + 1);
+        detail::reduce_tiles<T>(device, in, op, before);
+        scan<T>(device, before, op, false, before, std::move(levels), level + 1);
     }
     Defines defines = op;
     defines["INCLUSIVE"] = std::to_string(inclusive ? 1 : 0);
-    const Slices slices = cut(device, in.size(), primitives::tile);
+    const Slices slices = cut(device, in.size(), detail::tile);
     launch(device, {"primitives/scan.cl", "scan", defines}, "scan", slices.slices, in, out, before,
            static_cast<cl_uint>(in.size()), slices.length, slices.slices);
 }
 
 template <class T>
 void checked_scan(Device& device, BufferView<const T> in, Operator op, bool inclusive, BufferView<T> out) {
-    primitives::require(out.size() >= in.size(), "out", "has fewer elements than in");
+    detail::require(out.size() >= in.size(), "out", "has fewer elements than in");
     if (in.size() == 0) return;
-    scan<T>(device, in, primitives::operator_defines<T>(op), inclusive, out, make_levels<T>(device, in.size()));
+    scan<T>(device, in, detail::operator_defines<T>(op), inclusive, out, make_levels<T>(device, in.size()));
 }
 
 } // namespace
@@ -60,8 +60,8 @@ void inclusive_scan(Device& device, BufferView<const T> in, Operator op, BufferV
     checked_scan(device, in, op, true, out);
 }
 
-void primitives::exclusive_sums(Device& device, BufferView<const std::uint32_t> in, BufferView<std::uint32_t> out,
-                                std::size_t most) {
+void exclusive_sums(Device& device, BufferView<const std::uint32_t> in, BufferView<std::uint32_t> out,
+                    std::size_t most) {
     if (in.size() == 0) return;
     scan<std::uint32_t>(device, in, operator_defines<std::uint32_t>(Operator::sum), false, out,
                         make_levels<std::uint32_t>(device, most));
@@ -78,4 +78,4 @@ template void inclusive_scan(Device&, BufferView<const std::uint64_t>, Operator,
 template void inclusive_scan(Device&, BufferView<const float>, Operator, BufferView<float>);
 template void inclusive_scan(Device&, BufferView<const cl_float4>, Operator, BufferView<cl_float4>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -7,10 +7,10 @@
 
 #include "boxwood/buffer.hpp"
 
-namespace boxwood::primitives {
+namespace boxwood::detail {
 
 /// exclusive_scan of sums, with the scratch that `most` elements would take, in.size() or more. O(in.size()).
 void exclusive_sums(Device& device, BufferView<const std::uint32_t> in, BufferView<std::uint32_t> out,
                     std::size_t most);
 
-} // namespace boxwood::primitives
+} // namespace boxwood::detail

@@ -3,14 +3,14 @@
 
 #include "primitives/element.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 template <class T>
 void scatter(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> indices, BufferView<T> out) {
-    primitives::require(indices.size() == in.size(), "indices", "needs as many entries as in has elements");
-    primitives::require(out.size() >= in.size(), "out", "has fewer elements than in, so indices cannot be distinct");
+    detail::require(indices.size() == in.size(), "indices", "needs as many entries as in has elements");
+    detail::require(out.size() >= in.size(), "out", "has fewer elements than in, so indices cannot be distinct");
     const Slices slices = cut(device, in.size());
-    launch(device, {"primitives/scatter.cl", "scatter", primitives::bits_defines<T>()}, "scatter", slices.slices, in,
+    launch(device, {"primitives/scatter.cl", "scatter", detail::bits_defines<T>()}, "scatter", slices.slices, in,
            indices, out, static_cast<cl_uint>(in.size()), slices.length, slices.slices);
 }
 
@@ -24,4 +24,4 @@ template void scatter(Device&, BufferView<const float>, BufferView<const std::ui
 template void scatter(Device&, BufferView<const cl_float4>, BufferView<const std::uint32_t>, BufferView<cl_float4>);
 template void scatter(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, BufferView<Aabb>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -3,7 +3,7 @@
 
 #include "primitives/element.hpp"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 namespace {
 
@@ -18,18 +18,18 @@ void segmented(Device& device, BufferView<const T> in, BufferView<const std::uin
            static_cast<cl_uint>(segments), over_segments.length, over_segments.slices);
     if (in.size() == 0) return;
 
-    const std::size_t tiles = primitives::tiles_of(in.size());
-    const auto head = make_scratch<T>(device, tiles, "heads of tiles");
-    const auto tail = make_scratch<T>(device, tiles, "tails of tiles");
-    const auto tail_segment = make_scratch<std::uint32_t>(device, tiles, "segments of tails");
-    const auto spans = make_scratch<std::uint32_t>(device, tiles + 1, "spans of heads");
-    const Slices over_elements = cut(device, in.size(), primitives::tile);
+    const std::size_t tiles = detail::tiles_of(in.size());
+    auto head = make_scratch<T>(device, tiles, "heads of tiles");
+    auto tail = make_scratch<T>(device, tiles, "tails of tiles");
+    auto tail_segment = make_scratch<std::uint32_t>(device, tiles, "segments of tails");
+    auto spans = make_scratch<std::uint32_t>(device, tiles + 1, "spans of heads");
+    const Slices over_elements = cut(device, in.size(), detail::tile);
     launch(device, {file, "segmented_reduce", defines}, "segmented reduce", over_elements.slices, in, offsets, out,
            head, tail, tail_segment, spans, static_cast<cl_uint>(in.size()), static_cast<cl_uint>(segments),
            over_elements.length, over_elements.slices);
     if (tiles == 1) return;
 
-    const auto reduced = make_scratch<T>(device, tiles, "reduced heads");
+    auto reduced = make_scratch<T>(device, tiles, "reduced heads");
     segmented<T>(device, head, spans, defines, reduced);
     const Slices over_tiles = cut(device, tiles);
     launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_tiles.slices, tail, reduced,
@@ -41,8 +41,8 @@ void segmented(Device& device, BufferView<const T> in, BufferView<const std::uin
 template <class T>
 void segmented_reduce(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> offsets, Operator op,
                       BufferView<T> out) {
-    primitives::require(offsets.size() == out.size() + 1, "offsets", "needs one entry more than out has segments");
-    const Defines defines = primitives::operator_defines<T>(op);
+    detail::require(offsets.size() == out.size() + 1, "offsets", "needs one entry more than out has segments");
+    const Defines defines = detail::operator_defines<T>(op);
     if (out.size() > 0) segmented<T>(device, in, offsets, defines, out);
 }
 
@@ -61,4 +61,4 @@ template void segmented_reduce(Device&, BufferView<const cl_ulong4>, BufferView<
 template void segmented_reduce(Device&, BufferView<const Aabb>, BufferView<const std::uint32_t>, Operator,
                                BufferView<Aabb>);
 
-} // namespace boxwood
+} // namespace boxwood::detail

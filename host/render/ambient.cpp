@@ -102,7 +102,7 @@ void trace_ambient(Device& device, const World& world, const AmbientLight& aroun
                    float distance, std::uint32_t sample, const PrimaryHits& primary, const AmbientSample& light) {
     const auto count = static_cast<std::uint32_t>(primary.rays.size());
     const Slices slices = cut(device, count);
-    const Paths paths(device, count);
+    Paths paths(device, count);
     const Appearance& appearance = world.appearance;
     const EnvironmentMap& map = world.environment;
     const Defines defines = ambient_defines(device, world, options, around.punctual > 0, map.kind);
@@ -140,8 +140,8 @@ void trace_occlusion(Device& device, const World& world, const LightOptions& opt
     const auto count = static_cast<std::uint32_t>(primary.rays.size());
     const Slices slices = cut(device, count);
     const Defines defines = ambient_defines(device, world, options, false, EnvironmentKind::none);
-    const Buffer<Ray> rays = make_scratch<Ray>(device, count, "rays of paths");
-    const Buffer<Hit> hits = make_scratch<Hit>(device, count, "hits of paths");
+    Buffer<Ray> rays = make_scratch<Ray>(device, count, "rays of paths");
+    Buffer<Hit> hits = make_scratch<Hit>(device, count, "hits of paths");
     {
         const Stage stage(device, "shade");
         launch_shading(device, {"render/ambient.cl", "occlusion_rays", defines}, "occlusion rays", slices.slices,

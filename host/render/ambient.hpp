@@ -9,9 +9,9 @@
 
 namespace boxwood {
 
-/// Irradiance over pi by the normal n, as 9 coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2: what a white Lambert
-/// surface reflects, from spherical harmonics up to the second degree (Ramamoorthi and Hanrahan 2001), exact to a few percent of the
-/// mean. O(pixels).
+/// Irradiance over pi by the normal n, as 9 coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2: what a white
+/// Lambert surface reflects, from spherical harmonics up to the second degree (Ramamoorthi and Hanrahan 2001), exact to
+/// a few percent of the mean. O(pixels).
 std::array<glm::dvec3, 9> ambient_coefficients(const Environment& environment);
 
 /// What the model reads beside the World.
@@ -30,8 +30,8 @@ struct AmbientSample {
     BufferView<float> ao;       ///< Share of the hemisphere that does not occlude, 1 where nothing is met.
 };
 
-/// Sample number `sample` of the pixels of `primary`, by options.depth surfaces of a path each; `distance` is the unit of the
-/// occlusion's t. Stages in the profile: shade, shadow, trace, accumulate.
+/// Sample number `sample` of the pixels of `primary`, by options.depth surfaces of a path each; `distance` is the unit
+/// of the occlusion's t. Stages in the profile: shade, shadow, trace, accumulate.
 void trace_ambient(Device& device, const World& world, const AmbientLight& around, const LightOptions& options,
                    float distance, std::uint32_t sample, const PrimaryHits& primary, const AmbientSample& light);
 

@@ -57,8 +57,8 @@ struct Planes {
         make(Aov::cost, 1, tested);
     }
 
-    GBuffer g_buffer(std::uint32_t pixels) const {
-        const auto first = [pixels](const auto& plane, std::size_t components) {
+    GBuffer g_buffer(std::uint32_t pixels) {
+        const auto first = [pixels](auto& plane, std::size_t components) {
             return plane.prefix(plane.size() == 0 ? 0 : components * pixels);
         };
         GBuffer planes;
@@ -87,7 +87,7 @@ template <class T>
 void store(Device& device, const Buffer<T>& plane, const std::string& layer, std::string_view parts,
            std::uint32_t first, std::uint32_t count, Image& image) {
     if (plane.size() == 0) return;
-    const std::vector<T> values = download<T>(device, plane.prefix(parts.size() * count));
+    const std::vector<T> values = download(device, plane.prefix(parts.size() * count));
     for (std::size_t c = 0; c < parts.size(); ++c) {
         std::vector<T>& target = channel<T>(image, layer + parts[c]);
         for (std::uint32_t i = 0; i < count; ++i) target[first + i] = values[parts.size() * i + c];
@@ -98,7 +98,7 @@ template <class T>
 void store(Device& device, const Buffer<T>& plane, const std::string& name, std::uint32_t first, std::uint32_t count,
            Image& image) {
     if (plane.size() == 0) return;
-    const std::vector<T> values = download<T>(device, plane.prefix(count));
+    const std::vector<T> values = download(device, plane.prefix(count));
     std::copy(values.begin(), values.end(), channel<T>(image, name).begin() + first);
 }
 
@@ -181,16 +181,16 @@ void add_centre_channels(Device& device, const Scene& scene, const World& world,
     const Stage stage(device, "channels");
     const Buffer<CameraRecord> record = upload_camera(device, camera, options.width, options.height);
     const std::uint32_t pixels = options.width * options.height, most = std::min(options.batch, pixels);
-    const Buffer<Ray> all_rays = make_scratch<Ray>(device, most, "rays");
-    const Buffer<Hit> all_hits = make_scratch<Hit>(device, most, "hits");
-    const Planes planes(device, aovs, most);
+    Buffer<Ray> all_rays = make_scratch<Ray>(device, most, "rays");
+    Buffer<Hit> all_hits = make_scratch<Hit>(device, most, "hits");
+    Planes planes(device, aovs, most);
     for (std::uint32_t first = 0, count = 0; first < pixels; first += count) {
         count = std::min(most, pixels - first);
         const BufferView<Ray> rays = all_rays.prefix(count);
         const BufferView<Hit> hits = all_hits.prefix(count);
         primary_rays(device, record, first, rays);
         if (asked(aovs, Aov::cost)) {
-            const auto statistics = make_scratch<RayStatistics>(device, count, "ray statistics");
+            auto statistics = make_scratch<RayStatistics>(device, count, "ray statistics");
             closest_hit(device, world.tree, rays, hits, statistics, options.light.trace);
             const Slices slices = cut(device, count);
             launch(device, {"render/views.cl", "cost_planes"}, "AOV costs", slices.slices, statistics, count,

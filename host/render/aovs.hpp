@@ -16,7 +16,8 @@ bool is_light(Aov aov);
 /// How many channels it adds to a picture.
 std::uint32_t channel_count(Aov aov);
 
-/// Traces the pixels' centres, `options.batch` at a time, and adds the channels of those of `aovs` that are not of the light.
+/// Traces the pixels' centres, `options.batch` at a time, and adds the channels of those of `aovs` that are not of the
+/// light.
 void add_centre_channels(Device& device, const Scene& scene, const World& world, const Camera& camera,
                          const RenderOptions& options, const std::vector<Aov>& aovs, Image& image);
 

@@ -20,8 +20,8 @@ void store(const glm::dvec3& v, float (&target)[3]) {
 
 glm::dmat3 absolute(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
-/// surface_clearance of cl/render/surface.h. `largest`: magnitudes of a triangle's vertices in object space; `normal`: its
-/// unit normal in world space.
+/// surface_clearance of cl/render/surface.h. `largest`: magnitudes of a triangle's vertices in object space; `normal`:
+/// its unit normal in world space.
 double clearance(const glm::dmat4& to_world, const glm::dvec3& largest, const glm::dvec3& normal) {
     const glm::dmat4 to_object = glm::inverse(to_world);
     const glm::dmat3 there = absolute(glm::dmat3(to_world)), back = absolute(glm::dmat3(to_object));

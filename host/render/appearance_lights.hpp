@@ -21,8 +21,8 @@ struct LightList {
 /// The most lights that light_list() can make. O(size of the scene).
 std::uint64_t light_limit(const Scene& scene, const ShadingRequirements& requirements);
 
-/// `emission` has the mean radiance of each material, textures included, the plain one last. A triangle is left out when that is
-/// zero, or when its area in world space is zero. O(n log n) in the lights. In double.
+/// `emission` has the mean radiance of each material, textures included, the plain one last. A triangle is left out
+/// when that is zero, or when its area in world space is zero. O(n log n) in the lights. In double.
 LightList light_list(const Scene& scene, const ShadingRequirements& requirements,
                      const std::vector<glm::dvec3>& emission);
 

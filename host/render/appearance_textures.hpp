@@ -20,12 +20,12 @@ namespace boxwood {
 /// The most texels of all textures of a scene; those of 16 bits count twice.
 inline constexpr std::uint64_t most_texels = std::uint64_t{1} << 28;
 
-/// Plans first, so that capacity is known before anything is decoded. A picture that several textures show is there once, twice
-/// when some input reads it as colour and another as numbers.
+/// Plans first, so that capacity is known before anything is decoded. A picture that several textures show is there
+/// once, twice when some input reads it as colour and another as numbers.
 class TextureSet {
 public:
-    /// Of the materials marked in `used`. Pictures that cannot be read, or do not fit any more, are replaced by one grey texel, with a
-    /// line in `warnings`.
+    /// Of the materials marked in `used`. Pictures that cannot be read, or do not fit any more, are replaced by one
+    /// grey texel, with a line in `warnings`.
     TextureSet(const Scene& scene, const std::vector<bool>& used, std::vector<std::string>& warnings);
 
     /// Words of all texels.

@@ -25,8 +25,8 @@ Cost cost_of(Device& device, const Tree& tree, const std::vector<Line>& lines) {
     std::vector<Ray> rays;
     for (const Line& line : lines) rays.push_back(line.ray);
     const Buffer<Ray> source = upload(device, rays, "probe rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "probe statistics");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
+    Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "probe statistics");
     closest_hit(device, tree, source, hits, statistics);
     Cost cost;
     for (const RayStatistics& each : download(device, statistics)) {
@@ -66,7 +66,8 @@ struct Control {
     }
 };
 
-/// Rays of an area from what its own 16 x 16 rays hit back to where those start: shadow rays, where the area is a light's.
+/// Rays of an area from what its own 16 x 16 rays hit back to where those start: shadow rays, where the area is a
+/// light's.
 std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceArea& area) {
     const InfluenceRecord frame = influence_records(std::vector{area})[0];
     std::vector<Ray> rays;
@@ -80,7 +81,7 @@ std::vector<Line> lines_back(Device& device, const Tree& tree, const InfluenceAr
         rays.push_back(
             {{from.x, from.y, from.z}, static_cast<float>(area.near), {d.x, d.y, d.z}, static_cast<float>(area.far)});
     }
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "probe hits");
     closest_hit(device, tree, upload(device, rays, "probe rays"), hits);
     const std::vector<Hit> found = download(device, hits);
     std::vector<Ray> hitting;
@@ -128,8 +129,8 @@ std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Ca
     const Geometry geometry = upload(device, scene);
     const DoubleBox box = *world_box(scene);
     const auto make = [&](const char* label) { return make_buffer<Ray>(device, side * side, label); };
-    const Buffer<Ray> primary = make("probe rays"), shadow = make("probe rays"), diffuse = make("probe rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "probe hits");
+    Buffer<Ray> primary = make("probe rays"), shadow = make("probe rays"), diffuse = make("probe rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "probe hits");
     primary_rays(device, camera, side, side, primary);
     closest_hit(device, tree, primary, hits);
     shadow_rays(device, geometry, primary, hits, default_light(scene), shadow);

@@ -11,8 +11,9 @@ namespace {
 
 const glm::vec3 horizon(0.86f, 0.94f, 1.02f);
 
-/// Radiance from a normalised direction that is not below the horizon: bluer and darker towards the zenith, brighter and
-/// warmer around the sun, in the manner of a clear sky's gradation and indicatrix (CIE S 011/E), not to its numbers.
+/// Radiance from a normalised direction that is not below the horizon: bluer and darker towards the zenith, brighter
+/// and warmer around the sun, in the manner of a clear sky's gradation and indicatrix (CIE S 011/E), not to its
+/// numbers.
 glm::vec3 sky_radiance(const glm::vec3& direction, const glm::vec3& sun) {
     const float haze = std::pow(1.0f - std::max(direction.y, 0.0f), 4.0f);
     const glm::vec3 zenith(0.18f, 0.34f, 0.72f);
@@ -21,8 +22,8 @@ glm::vec3 sky_radiance(const glm::vec3& direction, const glm::vec3& sun) {
     return glm::mix(zenith, horizon, haze) + 0.3f * glow * glm::vec3(1.0f, 0.86f, 0.66f);
 }
 
-/// The same from below: a plain of dry ground, of which some 2.8 of irradiance from this sky make as much, that fades into the
-/// horizon with its distance, which goes by 1 / -y.
+/// The same from below: a plain of dry ground, of which some 2.8 of irradiance from this sky make as much, that fades
+/// into the horizon with its distance, which goes by 1 / -y.
 glm::vec3 ground_radiance(const glm::vec3& direction) {
     const glm::vec3 ground(0.235f, 0.205f, 0.165f);
     return glm::mix(horizon, ground, std::exp(0.035f / direction.y));

@@ -16,12 +16,13 @@ namespace boxwood {
 
 namespace {
 
-/// Degrees above the horizon from which everything is seen, as by <model-viewer>, whose camera is 75 degrees from straight above.
+/// Degrees above the horizon from which everything is seen, as by <model-viewer>, whose camera is 75 degrees from
+/// straight above.
 constexpr double elevation = 15.0;
 constexpr double margin = 1.05;
 
-/// Where a camera must be, in its own axes, for points to fill its picture: between two planes through it to the left and right
-/// of them all, and between two above and below. Points are taken one by one.
+/// Where a camera must be, in its own axes, for points to fill its picture: between two planes through it to the left
+/// and right of them all, and between two above and below. Points are taken one by one.
 class Frame {
 public:
     /// Tangents of half the fields of view.
@@ -48,8 +49,8 @@ private:
     double nearest_ = upper_.x;
 };
 
-/// Calls `take` with points of which all of a scene is the hull: vertices of meshes that are shown once, corners of the boxes of the
-/// others' instances.
+/// Calls `take` with points of which all of a scene is the hull: vertices of meshes that are shown once, corners of the
+/// boxes of the others' instances.
 template <class Take>
 void for_hull(const Scene& scene, const Take& take) {
     std::vector<std::uint32_t> shown(scene.meshes.size());

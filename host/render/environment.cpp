@@ -15,8 +15,8 @@ namespace {
 
 double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-/// `weights`, all >= 0, become a distribution: 0, sums up to each, 1. Where every weight is 0 all are equal. A fraction of 2^-10
-/// is spread over all, so that none that is not 0 rounds to nothing.
+/// `weights`, all >= 0, become a distribution: 0, sums up to each, 1. Where every weight is 0 all are equal. A fraction
+/// of 2^-10 is spread over all, so that none that is not 0 rounds to nothing.
 void append_distribution(const std::vector<double>& weights, std::vector<float>& out) {
     double total = 0.0;
     for (const double weight : weights) total += weight;
@@ -35,8 +35,8 @@ double mean_luminance(const Environment& e) {
     return sum / static_cast<double>(e.pixels.size());
 }
 
-/// Mean of the luminance above `floor` at the corners of each patch between the centres of four texels, but for the solid angle of its row: height + 1 rows, the first
-/// and the last half a texel high. Columns wrap around, rows end.
+/// Mean of the luminance above `floor` at the corners of each patch between the centres of four texels, but for the
+/// solid angle of its row: height + 1 rows, the first and the last half a texel high. Columns wrap around, rows end.
 std::vector<double> patch_means(const Environment& e, float floor) {
     std::vector<double> means;
     means.reserve(std::size_t{e.height + 1} * e.width);

@@ -21,8 +21,9 @@ struct EnvironmentMap {
     Buffer<float> rows_above_floor, columns_above_floor; ///< The same of what is brighter than the picture's mean.
 };
 
-/// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a picture whose
-/// pixels are not width * height, or for the first that is not within [0, largest_radiance], or a rotation that is not finite, and CapacityError when it does not fit. O(pixels).
+/// Uploads an environment; one without light, or a picture that is black, is of kind none. Throws InputError for a
+/// picture whose pixels are not width * height, or for the first that is not within [0, largest_radiance], or a
+/// rotation that is not finite, and CapacityError when it does not fit. O(pixels).
 EnvironmentMap upload_environment(Device& device, const Environment& environment);
 
 } // namespace boxwood

@@ -37,8 +37,8 @@ struct FilmSample {
 /// Floats in the film of a picture: those of its pixels, in whole blocks of 8.
 std::uint64_t film_size(FilmParts parts, std::uint64_t pixels);
 
-/// Throws CapacityError when the film of a picture of these options does not fit such a device; for a CPU, whose memory is the
-/// host's, with what Render::image() and Render::state() then need beside it.
+/// Throws CapacityError when the film of a picture of these options does not fit such a device; for a CPU, whose memory
+/// is the host's, with what Render::image() and Render::state() then need beside it.
 void check_film(const DeviceInfo& device, const RenderOptions& options);
 
 /// A film without samples. Throws CapacityError.
@@ -47,7 +47,8 @@ Buffer<float> make_film(Device& device, FilmParts parts, std::size_t pixels);
 /// Adds a sample to its pixels.
 void add_sample(Device& device, FilmParts parts, const FilmSample& sample, BufferView<float> film);
 
-/// The means of a film of `pixels` pixels that was downloaded, 0 for a pixel without samples, as planes in the order of the sums.
+/// The means of a film of `pixels` pixels that was downloaded, 0 for a pixel without samples, as planes in the order of
+/// the sums.
 std::vector<std::vector<float>> film_means(FilmParts parts, std::size_t pixels, const std::vector<float>& film);
 /// Variance of the mean of the luminance; infinity for fewer than two samples.
 std::vector<float> film_variance(FilmParts parts, std::size_t pixels, const std::vector<float>& film);

@@ -35,7 +35,7 @@ void show_normals(Device& device, const World& world, const LightOptions& option
 void show_cost(Device& device, const World& world, const LightOptions& options, const PrimaryHits& primary,
                BufferView<Hit> hits, BufferView<float> light) {
     const Slices slices = cut(device, primary.hits.size());
-    const auto statistics = make_scratch<RayStatistics>(device, count_of(primary), "ray statistics");
+    auto statistics = make_scratch<RayStatistics>(device, count_of(primary), "ray statistics");
     closest_hit(device, world.tree, primary.rays, hits, statistics, options.trace);
     launch(device, {"render/views.cl", "cost_light"}, "cost", slices.slices, statistics, count_of(primary),
            slices.length, light);
@@ -52,7 +52,7 @@ SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t
 }
 
 FilmSample take_sample(Device& device, const Scenery& scenery, const RenderOptions& options, std::uint32_t sample,
-                       const PixelBatch& pixels, const SampleBuffers& buffers) {
+                       const PixelBatch& pixels, SampleBuffers& buffers) {
     const World& world = scenery.world;
     const BufferView<Ray> rays = buffers.rays.prefix(pixels.count);
     const BufferView<Hit> hits = buffers.hits.prefix(pixels.count);

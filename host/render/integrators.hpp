@@ -37,6 +37,6 @@ SampleBuffers make_sample_buffers(Device& device, FilmParts parts, std::uint32_t
 
 /// Sample number `sample` of some pixels; the views are of `buffers`.
 FilmSample take_sample(Device& device, const Scenery& scenery, const RenderOptions& options, std::uint32_t sample,
-                       const PixelBatch& pixels, const SampleBuffers& buffers);
+                       const PixelBatch& pixels, SampleBuffers& buffers);
 
 } // namespace boxwood

@@ -67,8 +67,8 @@ struct Sum {
         count += other.count;
     }
 
-    /// The orientation measure of the paper for lights that shine by the cosine is pi for one direction and 4 pi for all; between
-    /// them by the length of the mean axis, which needs no cone for each bin.
+    /// The orientation measure of the paper for lights that shine by the cosine is pi for one direction and 4 pi for
+    /// all; between them by the length of the mean axis, which needs no cone for each bin.
     double cost() const {
         if (!(strength > 0.0)) return 0.0;
         const glm::dvec3 size = high - low;

@@ -19,9 +19,10 @@ struct LightBounds {
     bool distant = false;           ///< Directional: the same everywhere.
 };
 
-/// The tree over n > 0 lights (Conty Estevez and Kulla 2018): n - 1 nodes of two children, the root first, then the leaves in the
-/// order of the lights. Where some are distant and some not, the root's first child holds those, its second one the others. Split where strength times size times spread of
-/// both sides is least, by bins; no path is longer than 64 and the logarithm of n. In double. O(n log n).
+/// The tree over n > 0 lights (Conty Estevez and Kulla 2018): n - 1 nodes of two children, the root first, then the
+/// leaves in the order of the lights. Where some are distant and some not, the root's first child holds those, its
+/// second one the others. Split where strength times size times spread of both sides is least, by bins; no path is
+/// longer than 64 and the logarithm of n. In double. O(n log n).
 std::vector<LightNode> light_tree(const std::vector<LightBounds>& lights);
 
 /// Of a light without extent.

@@ -84,7 +84,7 @@ double received_fraction(Device& device, const Tree& tree, const std::vector<Lam
         while (lamp + 1 < lamps.size() && before + lamps[lamp].power <= wanted) before += lamps[lamp++].power;
         rays.push_back(lamp_ray(lamps[lamp], sequence(i), i % 2 == 1));
     }
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits of lamps");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits of lamps");
     closest_hit(device, tree, upload(device, rays, "rays of lamps"), hits);
     const std::vector<Hit> found = download(device, hits);
     const auto met =

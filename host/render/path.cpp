@@ -155,8 +155,8 @@ private:
     std::size_t close_gaps(Queue<Record>& queue, Queue<Record>& moved, std::size_t count) {
         const Stage stage(device_, "compact");
         const Slices slices = fronts_.slices;
-        primitives::exclusive_sums(device_, fronts_.kept.prefix(slices.slices + 1),
-                                   fronts_.before.prefix(slices.slices + 1), fronts_.kept.size());
+        detail::exclusive_sums(device_, fronts_.kept.prefix(slices.slices + 1),
+                               fronts_.before.prefix(slices.slices + 1), fronts_.kept.size());
         const std::size_t kept = download_element(device_, fronts_.before, slices.slices);
         if (kept == 0 || kept == count) return kept;
         launch(device_, {"render/path_queue.cl", "move_kept", {{"RECORD", record_name(queue)}}}, "move kept",

@@ -33,9 +33,10 @@ struct PrimaryHits {
     std::uint32_t first_pixel = 0; ///< Pixel of rays[0]; the others follow, row by row.
 };
 
-/// Sample number `sample` (of options.samples) of the pixels of `primary`: one path each, its own camera ray given. What it is
-/// depends on (options, camera, pixel, sample) alone. Of `options`, integrator and primary are not read. Surfaces with alpha,
-/// any number of them, cost no bounce; of those at the very same distance, the first by instance and triangle stands for all. Stages in the profile: shade, shadow, compact, trace. Throws InputError for arrays of
+/// Sample number `sample` (of options.samples) of the pixels of `primary`: one path each, its own camera ray given.
+/// What it is depends on (options, camera, pixel, sample) alone. Of `options`, integrator and primary are not read.
+/// Surfaces with alpha, any number of them, cost no bounce; of those at the very same distance, the first by instance
+/// and triangle stands for all. Stages in the profile: shade, shadow, compact, trace. Throws InputError for arrays of
 /// different sizes, and CapacityError, before any work, for 2^30 pixels or more or when the queues do not fit.
 void trace_paths(Device& device, const World& world, const LightOptions& options, std::uint32_t sample,
                  const PrimaryHits& primary, SampleLight light);

@@ -36,8 +36,8 @@ std::uint8_t srgb_byte(double linear) {
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
-/// Khronos PBR Neutral (its specification, 2024): what reflection at a dielectric's surface adds is taken off, and above
-/// 0.76 brightness is compressed towards 1 and colours fade to white.
+/// Khronos PBR Neutral (its specification, 2024): what reflection at a dielectric's surface adds is taken off, and
+/// above 0.76 brightness is compressed towards 1 and colours fade to white.
 glm::dvec3 neutral_curve(glm::dvec3 colour) {
     constexpr double start = 0.8 - 0.04, desaturation = 0.15, room = 1.0 - start;
     const double least = std::min({colour.x, colour.y, colour.z});

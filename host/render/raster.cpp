@@ -85,7 +85,7 @@ void Rasteriser::draw(BufferView<const CameraRecord> camera, std::uint32_t width
     if (rays.size() == 0) return;
     const Stage stage(device_, "raster");
     const Tiles tiles(width, first_pixel, static_cast<std::uint32_t>(rays.size()));
-    const Batch batch(device_, std::max(placed_, 1u), tiles);
+    Batch batch(device_, std::max(placed_, 1u), tiles);
     const Slices clear = cut(device_, hits.size());
     const Defines defines{{"FLATTENED", flattened_ ? "1" : "0"}};
     const Defines drawing{{"FLATTENED", flattened_ ? "1" : "0"}, {"PORTABLE_LANES", "0"}};
@@ -100,7 +100,7 @@ void Rasteriser::draw(BufferView<const CameraRecord> camera, std::uint32_t width
                geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, first_placed_, instances_,
                camera, first_pixel, tiles.pixels, done, count, slices.length, batch.triangles, batch.offsets);
         const BufferView<std::uint64_t> offsets = batch.offsets.prefix(count + std::size_t{1});
-        exclusive_scan<std::uint64_t>(device_, offsets, Operator::sum, offsets);
+        exclusive_scan(device_, offsets, Operator::sum, offsets);
         const std::uint64_t pairs = download_element(device_, batch.offsets, count);
         if (pairs > batch.keys.size()) {
             most = count / 2; // one triangle always fits

@@ -186,7 +186,7 @@ void Render::advance() {
         upload_camera(state.device, state.camera, state.options.width, state.options.height,
                       camera_jitter(state.options.light, state.samples));
     const Scenery scenery{state.world(), state.ambient, state.rasteriser ? &*state.rasteriser : nullptr};
-    const SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
+    SampleBuffers buffers = make_sample_buffers(state.device, state.parts, most);
     for (std::uint32_t count = 0; state.ahead < pixels; state.ahead += count) {
         count = std::min(most, pixels - state.ahead);
         const FilmSample sample =

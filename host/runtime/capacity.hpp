@@ -15,8 +15,8 @@ struct BufferNeed {
     std::uint64_t element_bytes;
 };
 
-/// Throws CapacityError unless all of these fit the device together: the limits of make_buffer, asked for at once, after giving
-/// back what is pooled if that is needed. `what` they are for is named in the message.
+/// Throws CapacityError unless all of these fit the device together: the limits of make_buffer, asked for at once,
+/// after giving back what is pooled if that is needed. `what` they are for is named in the message.
 void check_fits(Device& device, std::span<const BufferNeed> needs, const char* what);
 
 } // namespace boxwood

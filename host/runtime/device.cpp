@@ -123,6 +123,27 @@ std::string listing(const std::vector<DeviceInfo>& infos) {
     return out.str();
 }
 
+void check_language(const DeviceInfo& info) {
+    if (!info.language.empty()) return;
+    throw DeviceError(0, "choosing a device", "",
+                      info.name + " (" + info.version + ") can compile neither OpenCL C 1.2, nor 3.0 with atomics of " +
+                          "acquire and release at device scope; choose another device");
+}
+
+/// Where in list_devices() it is.
+std::size_t index_of(const cl::Device& device) {
+    const std::vector<cl::Device> all = all_devices();
+    return static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [&](const cl::Device& each) { return each() == device(); }) - all.begin());
+}
+
+void check_queue(const cl::Context& context, const cl::CommandQueue& queue) {
+    const auto fail = [](const char* what) { throw DeviceError(0, "taking the caller's queue", "", what); };
+    if (queue.getInfo<CL_QUEUE_CONTEXT>()() != context()) fail("the queue is of another context");
+    if ((queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) != 0)
+        fail("the queue executes out of order; Boxwood's work relies on order");
+}
+
 } // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -146,17 +167,28 @@ Device::Device(const std::string& selector) {
     if (found == infos.end())
         throw DeviceError(0, "choosing a device", "",
                           "no device matches \"" + wanted + "\"; there are:" + listing(infos));
-    if (found->language.empty())
-        throw DeviceError(0, "choosing a device", "",
-                          found->name + " (" + found->version +
-                              ") can compile neither OpenCL C 1.2, nor 3.0 with atomics of " +
-                              "acquire and release at device scope; choose another device");
+    check_language(*found);
     try {
         state_ = std::make_shared<detail::DeviceState>(all_devices().at(found->index), *found);
     } catch (const cl::Error& error) {
         throw DeviceError(error.err(), error.what(), "", "opening " + found->name);
     }
     state_->tuning = default_tuning(*found);
+}
+
+Device::Device(cl_context context, cl_command_queue queue) {
+    try {
+        const cl::Context own_context(context, true);
+        const cl::CommandQueue own_queue(queue, true);
+        check_queue(own_context, own_queue);
+        const cl::Device device = own_queue.getInfo<CL_QUEUE_DEVICE>();
+        const DeviceInfo info = describe(device, index_of(device));
+        check_language(info);
+        state_ = std::make_shared<detail::DeviceState>(own_context, own_queue, info);
+        state_->tuning = default_tuning(info);
+    } catch (const cl::Error& error) {
+        throw DeviceError(error.err(), error.what(), "", "taking the caller's context and queue");
+    }
 }
 
 Device::~Device() = default;

@@ -23,21 +23,26 @@ namespace boxwood::detail {
 class DeviceState {
 public:
     DeviceState(cl::Device device, DeviceInfo info);
+    DeviceState(cl::Context context, cl::CommandQueue queue, DeviceInfo info);
 
     const cl::Device device;
     const DeviceInfo info;
     const cl::Context context;
-    const cl::CommandQueue queue; ///< In order, with profiling.
+    const cl::CommandQueue queue; ///< In order.
+    const bool profiles;          ///< Whether the queue times its commands.
     Tuning tuning;
     std::string stage; ///< Name of the innermost Stage.
     double compile_ms = 0.0;
+    bool checks_arguments =
+        false; ///< Every launch compares its arguments' types with the compiled kernel's; for tests.
 
-    /// The kernel `name` of `file` compiled with `options` and `source` inserted; compiled at most once. Throws ProgramError.
+    /// The kernel `name` of `file` compiled with `options` and `source` inserted; compiled at most once. Throws
+    /// ProgramError.
     cl::Kernel& kernel(const std::string& file, const std::string& name, const std::string& options,
                        const std::string& source = {});
 
-    /// Called after the first launch of a kernel, which is when some devices (PoCL) finish compiling it: waits for it and
-    /// counts what was not device time since `start` as compilation.
+    /// Called after the first launch of a kernel, which is when some devices (PoCL) finish compiling it: waits for it
+    /// and counts what was not device time since `start` as compilation.
     void count_first_launch(const cl::Kernel& kernel, const cl::Event& event,
                             std::chrono::steady_clock::time_point start);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "boxwood/error.hpp"
+#include "runtime/argument_check.hpp"
 #include "runtime/device_state.hpp"
 
 namespace boxwood {
@@ -17,6 +18,7 @@ std::string build_options(const Device& device, const Defines& defines) {
     std::string options = "-cl-std=" + device.info().language;
     if (device.info().correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     options += " -DGROUP_SIZE=" + std::to_string(device.tuning().group_size);
+    if (device.state().checks_arguments) options += " -cl-kernel-arg-info";
     for (const auto& [macro, value] : defines) options += " -D" + macro + "=" + value;
     return options;
 }
@@ -55,6 +57,7 @@ void detail::enqueue(Device& device, const KernelRef& ref, const char* label, st
         if (wanted != argument_count)
             throw DeviceError(0, std::string("launching ") + label, ref.name,
                               "takes " + std::to_string(wanted) + " arguments, got " + std::to_string(argument_count));
+        if (device.state().checks_arguments) check_arguments(kernel, arguments, static_cast<cl_uint>(argument_count));
         for (cl_uint i = 0; i < argument_count; ++i) kernel.setArg(i, arguments[i].bytes, arguments[i].value);
         const std::size_t group = device.tuning().group_size;
         const std::size_t items = ((work_items - 1) / group + 1) * group;

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "boxwood/buffer.hpp"
 #include "boxwood/device.hpp"
+#include "runtime/opencl_type.hpp"
 
 namespace boxwood {
 
@@ -41,9 +43,13 @@ std::size_t most_slices(const Device& device, std::size_t count, std::size_t mul
 
 namespace detail {
 
+/// A value for a kernel's parameter, and what type that must have (see argument_check.hpp).
 struct Argument {
     const void* value;
     std::size_t bytes;
+    std::string_view type; ///< As OpenCL C writes it; a pointer's is that of its elements.
+    bool pointer;
+    bool writes; ///< Not through a pointer to const.
 };
 
 void enqueue(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
@@ -51,46 +57,51 @@ void enqueue(Device& device, const KernelRef& kernel, const char* label, std::si
 
 template <class T>
 Argument to_argument(const BufferView<T>& view) {
-    return {&view.handle(), sizeof(cl_mem)};
+    return {&view.handle(), sizeof(cl_mem), opencl_type<std::remove_const_t<T>>(), true, !std::is_const_v<T>};
 }
 
 template <class T>
 requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= 8) Argument to_argument(const T& value) {
-    return {&value, sizeof(T)};
+    return {&value, sizeof(T), opencl_type<T>(), false, false};
 }
 
 /// A shared struct, by value.
 template <class T>
 requires(std::is_class_v<T>&& std::is_trivially_copyable_v<T>) Argument to_argument(const T& value) {
-    return {&value, sizeof(T)};
+    return {&value, sizeof(T), opencl_type<T>(), false, false};
 }
 
+/// Buffers as views of mutable elements, const ones of const elements; other values as they are.
 template <class T>
-struct LaunchArgument {
-    using type = T;
-};
+const T& to_value(const T& value) {
+    return value;
+}
 template <class T>
-struct LaunchArgument<Buffer<T>> {
-    using type = BufferView<T>;
-};
+BufferView<T> to_value(Buffer<T>& buffer) {
+    return buffer;
+}
+template <class T>
+BufferView<const T> to_value(const Buffer<T>& buffer) {
+    return buffer;
+}
 
 template <class... T>
-void launch_converted(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
-                      const T&... values) {
-    const Argument arguments[] = {to_argument(values)..., {nullptr, 0}};
+void launch_values(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
+                   const T&... values) {
+    const Argument arguments[] = {to_argument(values)..., {}};
     enqueue(device, kernel, label, work_items, arguments, sizeof...(T));
 }
 
 } // namespace detail
 
 /// Enqueues `kernel` over `work_items` work-items, rounded up to whole groups (kernels test their index). Arguments
-/// are Buffer, BufferView, arithmetic values or shared structs of the kernel's exact parameter types, in its order. No work-items: no
-/// launch. Throws ProgramError when it does not compile, DeviceError when the arguments do not fit or it cannot run.
+/// are Buffer, BufferView, arithmetic values or shared structs of the kernel's exact parameter types, in its order; a const Buffer or
+/// a view of const elements where it only reads. No work-items: no launch. Throws ProgramError when it does not compile, DeviceError
+/// when the arguments do not fit or it cannot run.
 template <class... Arguments>
 void launch(Device& device, const KernelRef& kernel, const char* label, std::size_t work_items,
-            const Arguments&... arguments) {
-    detail::launch_converted<typename detail::LaunchArgument<Arguments>::type...>(device, kernel, label, work_items,
-                                                                                  arguments...);
+            Arguments&&... arguments) {
+    detail::launch_values(device, kernel, label, work_items, detail::to_value(arguments)...);
 }
 
 /// Compiles `kernel` without running it, so that the time is not spent in a measurement.

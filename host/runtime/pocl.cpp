@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The threads that PoCL starts: as many as asked for, by the name of today or that of before version 6, else one for each CPU.
+/// The threads that PoCL starts: as many as asked for, by the name of today or that of before version 6, else one for
+/// each CPU.
 std::size_t pocl_threads() {
     for (const char* name : {"POCL_CPU_MAX_CU_COUNT", "POCL_MAX_PTHREAD_COUNT"}) {
         const char* value = std::getenv(name);
@@ -69,7 +70,8 @@ bool may_run_on_first_cpus(std::size_t count) {
 }
 
 void pin_pocl_threads() {
-    // Unpinned, they are woken on one core and share it for the first milliseconds, which halves the speed of short kernels.
+    // Unpinned, they are woken on one core and share it for the first milliseconds, which halves the speed of short
+    // kernels.
     if (may_run_on_first_cpus(pocl_threads())) ::setenv("POCL_AFFINITY", "1", 0);
 }
 

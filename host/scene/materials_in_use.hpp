@@ -13,7 +13,8 @@ namespace boxwood {
 /// The inputs of a material that may be textures, by BOXWOOD_BASE_COLOR and its like.
 std::array<const TextureUse*, 5> texture_uses(const Material& material);
 
-/// Whether a surface of this material gives off light of its own, before textures. An unlit one shows its colour and nothing else.
+/// Whether a surface of this material gives off light of its own, before textures. An unlit one shows its colour and
+/// nothing else.
 bool emits(const Material& material);
 
 /// By mesh: whether some instance shows it. O(instances + meshes).

@@ -10,7 +10,8 @@
 
 namespace {
 
-// A few bytes of a deflate stream may ask for gigabytes, whatever the size of the picture: no block is larger than this.
+// A few bytes of a deflate stream may ask for gigabytes, whatever the size of the picture: no block is larger than
+// this.
 thread_local std::size_t largest_block = 0;
 
 void* allocate(std::size_t bytes) { return bytes <= largest_block ? std::malloc(bytes) : nullptr; }
@@ -142,7 +143,8 @@ Picture decode_picture(const EncodedImage& image) {
     const int bytes = byte_count(image);
     const PictureSize size = picture_size(image);
     const bool wide = is_wide(image);
-    // The most that a decoder needs: 8 bytes a pixel and a filter byte a row, grown by doubling; the file, for its packed data.
+    // The most that a decoder needs: 8 bytes a pixel and a filter byte a row, grown by doubling; the file, for its
+    // packed data.
     largest_block = smallest_limit + image.bytes.size() + std::size_t{32} * size.width * size.height;
     Picture picture{size, {}};
     if (wide)

@@ -25,7 +25,8 @@ Scene make_hair(const ProceduralOptions& options);
 /// Piles of long thin boards in [-1, 1]^3, each pile under a random rotation; 12 triangles a board, closed.
 Scene make_planks(const ProceduralOptions& options);
 
-/// Spheres of many materials in two rows on a chequered floor, under a lamp and a point light; 96 f^2 + 4 triangles in 14 meshes.
+/// Spheres of many materials in two rows on a chequered floor, under a lamp and a point light; 96 f^2 + 4 triangles in
+/// 14 meshes.
 Scene make_materials(const ProceduralOptions& options);
 
 /// The unit sphere of 8 f^2 triangles, f > 0, with its normals.

@@ -23,8 +23,8 @@ double placed_size(const glm::dmat4& transform, const MeshBounds& bounds) {
     return largest(placed);
 }
 
-/// At least what a vertex within `bounds` is moved by: half a unit in the last place, that is 2^-24 of the largest coordinate
-/// that it can have, or half the least denormal.
+/// At least what a vertex within `bounds` is moved by: half a unit in the last place, that is 2^-24 of the largest
+/// coordinate that it can have, or half the least denormal.
 double distance_bound(const glm::dmat4& transform, const MeshBounds& bounds) {
     const glm::dvec3 reach(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
     glm::dvec3 farthest = glm::abs(glm::dvec3(transform[3]));

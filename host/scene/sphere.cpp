@@ -11,8 +11,8 @@ namespace boxwood {
 
 namespace {
 
-// The octahedron |x| + |y| + |z| = f has integer points; in ring r (0 at the north pole, 2f at the south pole) there are
-// 4 min(r, 2f - r) of them, one at a pole.
+// The octahedron |x| + |y| + |z| = f has integer points; in ring r (0 at the north pole, 2f at the south pole) there
+// are 4 min(r, 2f - r) of them, one at a pole.
 struct Rings {
     std::int64_t f;
 
@@ -43,8 +43,8 @@ struct Rings {
     }
 };
 
-// The band between a ring and the next one away from the pole: per quadrant, `outer` triangles with an edge on the outer
-// ring and one less on the inner ring. `flip` turns them round for the southern half.
+// The band between a ring and the next one away from the pole: per quadrant, `outer` triangles with an edge on the
+// outer ring and one less on the inner ring. `flip` turns them round for the southern half.
 void add_band(Mesh& mesh, const Rings& rings, std::int64_t inner, std::int64_t outer, bool flip) {
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         mesh.triangles.emplace_back(a, flip ? c : b, flip ? b : c);

@@ -26,7 +26,8 @@ struct DoubleBox {
 /// Of each mesh's positions, in object space. O(vertices).
 std::vector<DoubleBox> mesh_boxes(const Scene& scene);
 
-/// Corners of the boxes of a valid scene's meshes where each instance has them, eight for each. O(vertices + instances).
+/// Corners of the boxes of a valid scene's meshes where each instance has them, eight for each. O(vertices +
+/// instances).
 std::vector<glm::dvec3> instance_corners(const Scene& scene);
 
 /// The box of instance_corners; none for an empty scene.

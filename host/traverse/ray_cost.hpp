@@ -19,9 +19,10 @@ struct MarkedTree {
     SceneSphere sphere;                     ///< Around all triangles, see scene_sphere.
 };
 
-/// Follows each ray twice: through every box that it meets on its whole way (paper 9.1), and in search of its closest hit,
-/// nearest child first and never beyond the best hit so far. `visits` and `hits` have an element per ray. Boxes are met as
-/// in closest_hit, with its slack for roundings. Waits for the tree's height. Throws CapacityError for a tree too deep to trace.
+/// Follows each ray twice: through every box that it meets on its whole way (paper 9.1), and in search of its closest
+/// hit, nearest child first and never beyond the best hit so far. `visits` and `hits` have an element per ray. Boxes
+/// are met as in closest_hit, with its slack for roundings. Waits for the tree's height. Throws CapacityError for a
+/// tree too deep to trace.
 void ray_visits(Device& device, const MarkedTree& tree, BufferView<const Ray> rays, BufferView<RayVisits> visits,
                 BufferView<Hit> hits);
 

@@ -11,8 +11,8 @@ namespace boxwood {
 /// What is asked of each ray.
 enum class Query { closest, closest_with_statistics, any };
 
-/// At least `needed` entries of a traversal stack: 64 times a power of 8, so that scenes share programs. Throws CapacityError for
-/// more than 2 MiB a ray.
+/// At least `needed` entries of a traversal stack: 64 times a power of 8, so that scenes share programs. Throws
+/// CapacityError for more than 2 MiB a ray.
 std::uint32_t stack_entries(std::uint64_t needed);
 
 /// Stack entries that a traversal of `tree` never exceeds (proof in cl/traverse/traversal_state.h).

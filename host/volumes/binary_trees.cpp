@@ -10,9 +10,9 @@ Buffer<Aabb> bounds_of_trees(Device& device, BufferView<const Aabb> boxes, Buffe
     const std::size_t trees = offsets.size() - 1;
     Buffer<Aabb> bounds = make_scratch<Aabb>(device, trees, "bounds of trees");
     if (trees == 1)
-        reduce<Aabb>(device, boxes, Operator::sum, bounds);
+        reduce(device, boxes, Operator::sum, bounds);
     else
-        segmented_reduce<Aabb>(device, boxes, offsets, Operator::sum, bounds);
+        segmented_reduce(device, boxes, offsets, Operator::sum, bounds);
     return bounds;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 /// Primitives that one work-item may take at a time; see cl/volumes/obb_ranges.cl.
 constexpr std::uint32_t longest_range = 4096;
-/// Primitives from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the nodes. A
-/// top level has few nodes, and large ones.
+/// Primitives from which on a node's axes are refined: larger nodes hold most of the volume, smaller ones most of the
+/// nodes. A top level has few nodes, and large ones.
 constexpr std::uint32_t refined_triangles = 256, refined_instances = 2;
 /// Floats that a vector load may read behind the last point.
 constexpr std::uint32_t padding = 64;
@@ -79,28 +79,28 @@ void merge_levels(Fit& fit, const NodeLevels& levels, const char* merge, bool ex
     });
 }
 
-/// Pass "0": the axes of nodes by the covariance of their points, "1": their boxes along these; of all nodes, or of those with up
-/// to `longest` primitives. The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to five digits (bunny,
-/// dragon); small nodes have little volume, and 2 sweeps do for them alone.
+/// Pass "0": the axes of nodes by the covariance of their points, "1": their boxes along these; of all nodes, or of
+/// those with up to `longest` primitives. The sum of volumes with 3 sweeps of the eigenvector solver is that with 5 to
+/// five digits (bunny, dragon); small nodes have little volume, and 2 sweeps do for them alone.
 void pass_over_ranges(Fit& fit, const char* pass, const char* label, std::uint32_t longest = 0) {
     Device& device = fit.device;
     const std::uint32_t chunk = longest ? longest : longest_range;
     Defines extra{{"PASS", pass}, {"CHUNK", std::to_string(chunk)}};
     if (pass[0] == '0') extra["JACOBI_SWEEPS"] = longest ? "2" : "3";
     const auto kernel = [&](const char* name) { return kernel_of(fit, "volumes/obb_ranges.cl", name, extra); };
-    const Buffer<std::uint32_t> chunks = make_scratch<std::uint32_t>(device, fit.count, "chunks of nodes");
+    Buffer<std::uint32_t> chunks = make_scratch<std::uint32_t>(device, fit.count, "chunks of nodes");
     const Slices slices = cut(device, fit.count);
     launch(device, kernel("node_chunks"), "chunks of nodes", slices.slices, fit.topology.children,
            fit.topology.far_ends, chunks, fit.count, slices.length);
     launch(device, kernel("short_nodes"), label, slices.slices, chunks, fit.topology.children, fit.topology.far_ends,
            fit.aabbs, fit.points, fit.stride, fit.errors, fit.boxes, fit.count, slices.length);
     if (longest || fit.count <= chunk) return;
-    const Buffer<std::uint32_t> first_chunks = make_scratch<std::uint32_t>(device, fit.count, "first chunks");
-    exclusive_scan<std::uint32_t>(device, chunks, Operator::sum, first_chunks);
+    Buffer<std::uint32_t> first_chunks = make_scratch<std::uint32_t>(device, fit.count, "first chunks");
+    exclusive_scan(device, chunks, Operator::sum, first_chunks);
     const std::uint32_t total =
         download_element(device, first_chunks, fit.count - 1) + download_element(device, chunks, fit.count - 1);
     const std::size_t results = pass[0] == '0' ? 9 : 6;
-    const Buffer<float> parts = make_scratch<float>(device, results * total, "results of chunks");
+    Buffer<float> parts = make_scratch<float>(device, results * total, "results of chunks");
     launch(device, kernel("long_chunks"), label, total, first_chunks, fit.topology.far_ends, fit.aabbs, fit.points,
            fit.stride, fit.boxes, parts, fit.count, total);
     launch(device, kernel("long_nodes"), label, slices.slices, chunks, first_chunks, fit.topology.children,
@@ -118,20 +118,20 @@ void refine_frames(Fit& fit) {
         return kernel_of(fit, "volumes/obb_refine.cl", name,
                          {{"SMALLEST", std::to_string(smallest_refined(fit))}, {"LANES", "1"}});
     };
-    const Buffer<std::uint32_t> refined = make_scratch<std::uint32_t>(device, fit.count, "refined nodes");
-    const Buffer<std::uint32_t> slots = make_scratch<std::uint32_t>(device, fit.count, "slots of refined nodes");
+    Buffer<std::uint32_t> refined = make_scratch<std::uint32_t>(device, fit.count, "refined nodes");
+    Buffer<std::uint32_t> slots = make_scratch<std::uint32_t>(device, fit.count, "slots of refined nodes");
     const Slices slices = cut(device, fit.count);
     launch(device, kernel("refined_nodes"), "refined nodes", slices.slices, fit.topology.children,
            fit.topology.far_ends, refined, fit.count, slices.length);
-    exclusive_scan<std::uint32_t>(device, refined, Operator::sum, slots);
+    exclusive_scan(device, refined, Operator::sum, slots);
     const std::uint32_t total =
         download_element(device, slots, fit.count - 1) + download_element(device, refined, fit.count - 1);
     if (total == 0) return;
-    const Buffer<std::uint32_t> extremes =
+    Buffer<std::uint32_t> extremes =
         make_scratch<std::uint32_t>(device, std::size_t{BOXWOOD_EXTREMES} * total, "extreme points of nodes");
-    const Buffer<std::uint32_t> slot_nodes = make_scratch<std::uint32_t>(device, total, "nodes of slots");
-    const Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, total, "arrivals at nodes");
-    fill<std::uint32_t>(device, arrivals, 0);
+    Buffer<std::uint32_t> slot_nodes = make_scratch<std::uint32_t>(device, total, "nodes of slots");
+    Buffer<std::uint32_t> arrivals = make_scratch<std::uint32_t>(device, total, "arrivals at nodes");
+    fill(device, arrivals, 0);
     launch(device, kernel("refined_slots"), "refined nodes", slices.slices, refined, slots, slot_nodes, fit.count,
            slices.length);
     const Slices parts = cut(device, total);

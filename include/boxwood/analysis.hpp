@@ -18,8 +18,8 @@
 
 namespace boxwood {
 
-/// What cost functions charge: the test of a child's box at an inner node that is met, and of a primitive of a leaf that
-/// is met (paper 9.1: 2 boxes of cost 1 in a binary node).
+/// What cost functions charge: the test of a child's box at an inner node that is met, and of a primitive of a leaf
+/// that is met (paper 9.1: 2 boxes of cost 1 in a binary node).
 inline constexpr double box_cost = 1.0;
 inline constexpr double primitive_cost = 1.2;
 
@@ -41,19 +41,20 @@ struct AnalysisTree {
     std::vector<std::array<glm::vec3, 8>> corners;
 };
 
-/// Tree `tree` of those with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in TopDownTree), to
-/// single primitives without any. A tree over no primitives, or that is not among them, has no nodes. Waits. O(nodes of all
-/// trees).
+/// Tree `tree` of those with the boxes `volumes` (as from aabb_volumes), down to the marked `leaves` (as in
+/// TopDownTree), to single primitives without any. A tree over no primitives, or that is not among them, has no nodes.
+/// Waits. O(nodes of all trees).
 AnalysisTree analysis_tree(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                            BufferView<const std::uint32_t> leaves = {}, std::size_t tree = 0);
 
-/// The trees of a valid image as they are stored: with two levels the tree over instances, then that of each mesh that has
-/// an instance, in object space; else the one over everything ("tree"), then the local tree of each of image.areas ("local tree
-/// I"), in world space. A child of a wide8 node is one level deeper. A root's box, which no layout stores, is the axis-aligned
-/// hull of its children's. An empty tree gives none.
+/// The trees of a valid image as they are stored: with two levels the tree over instances, then that of each mesh that
+/// has an instance, in object space; else the one over everything ("tree"), then the local tree of each of image.areas
+/// ("local tree I"), in world space. A child of a wide8 node is one level deeper. A root's box, which no layout stores,
+/// is the axis-aligned hull of its children's. An empty tree gives none.
 std::vector<AnalysisTree> analysis_trees(const TreeImage& image, const Scene& scene);
 
-/// The rays of each of image.areas, as the builders of the local trees knew them: those of point areas begin at their near plane.
+/// The rays of each of image.areas, as the builders of the local trees knew them: those of point areas begin at their
+/// near plane.
 std::vector<InfluenceRecord> stored_areas(const TreeImage& image);
 
 /// A node as functions of the caller see it.
@@ -72,18 +73,19 @@ struct NodeView {
     NodeView parent() const { return {tree, node().parent}; } ///< Not of the root.
 };
 
-/// Calls per_node(NodeView, Data&) for every node, breadth first, then final_action(Data&), whose result is returned: any
-/// figure of a tree can be gathered so (thesis 5.2).
+/// Calls per_node(NodeView, Data&) for every node, breadth first, then final_action(Data&), whose result is returned:
+/// any figure of a tree can be gathered so (thesis 5.2).
 template <class Data, class PerNode, class Final>
 auto analyze(const AnalysisTree& tree, Data data, PerNode&& per_node, Final&& final_action) {
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) per_node(NodeView{tree, i}, data);
     return std::forward<Final>(final_action)(data);
 }
 
-/// Figures of one node, in double precision. Probabilities are those that a ray of the areas meets the box, by their shares:
-/// the box's projection (paper section 5; what lies before the rectangle that rays leave is cut off) over that rectangle.
-/// Culled, only what projects into the rectangle counts, which is the probability exactly; else it may pass 1. Overlaps are of the
-/// projections of each two of the node's children, in the same unit, `smaller` the smaller of the two, each summed over pairs.
+/// Figures of one node, in double precision. Probabilities are those that a ray of the areas meets the box, by their
+/// shares: the box's projection (paper section 5; what lies before the rectangle that rays leave is cut off) over that
+/// rectangle. Culled, only what projects into the rectangle counts, which is the probability exactly; else it may pass
+/// 1. Overlaps are of the projections of each two of the node's children, in the same unit, `smaller` the smaller of
+/// the two, each summed over pairs.
 struct NodeMeasures {
     double surface = 0.0; ///< The probability that an isotropic ray that meets the root does: surface over the root's.
     double probability = 0.0;

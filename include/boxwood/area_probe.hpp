@@ -21,17 +21,17 @@ struct ProbedArea {
     bool kept = false;        ///< The local cost is lower, and local trees, where the builder makes any, answer.
 };
 
-/// Traces 16 x 16 rays of the camera and those that leave their hits, towards the default light and diffusely, looks for lines through
-/// one point and for parallel ones, 16 at the least, and builds a tree with each area found to see what it saves. `options` are those of
-/// the tree, of one level; its areas and levels are not read. Empty for a scene without triangles. Throws as build and primary_rays
-/// do. Waits.
+/// Traces 16 x 16 rays of the camera and those that leave their hits, towards the default light and diffusely, looks
+/// for lines through one point and for parallel ones, 16 at the least, and builds a tree with each area found to see
+/// what it saves. `options` are those of the tree, of one level; its areas and levels are not read. Empty for a scene
+/// without triangles. Throws as build and primary_rays do. Waits.
 std::vector<ProbedArea> probe_areas(Device& device, const Scene& scene, const Camera& camera,
                                     const BuildOptions& options);
 
-/// The same judgement of areas that are known, by rays from what their own rays hit back to where they start, as shadow rays run
-/// towards a light: one result for each area, its share as it was; none for a scene without triangles. These rays meet nothing before
-/// they leave the region, so that local trees answer none and the areas are kept for a builder without local trees only. Throws as
-/// validate and build do.
+/// The same judgement of areas that are known, by rays from what their own rays hit back to where they start, as shadow
+/// rays run towards a light: one result for each area, its share as it was; none for a scene without triangles. These
+/// rays meet nothing before they leave the region, so that local trees answer none and the areas are kept for a builder
+/// without local trees only. Throws as validate and build do.
 std::vector<ProbedArea> judge_areas(Device& device, const Scene& scene, const std::vector<InfluenceArea>& areas,
                                     const BuildOptions& options);
 

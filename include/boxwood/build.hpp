@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,8 +38,8 @@ struct BuildOptions {
     Builder builder = Builder::lbvh;
     MortonBits morton = MortonBits::bits30; ///< Of lbvh.
     BoundsOptions bounds = {};              ///< Oriented boxes need the binary layout.
-    /// Each that holds a triangle gets a tree of its own, which rays that follow it search first; for blend they tell the only
-    /// tree what rays will come. They need one level of axis-aligned boxes.
+    /// Each that holds a triangle gets a tree of its own, which rays that follow it search first; for blend they tell
+    /// the only tree what rays will come. They need one level of axis-aligned boxes.
     std::vector<InfluenceArea> areas = {};
     AreaIndexKind area_index = AreaIndexKind::automatic;
     /// Fill BuildReport::overlap, which may take longer than the build; binary layout only.
@@ -56,8 +57,8 @@ struct BuildReport {
     double total_ms = 0.0;  ///< Wall clock of the whole build, uploads included, compilation not.
     double upload_ms = 0.0; ///< Wall clock of its flattening and uploads.
     double compile_ms = 0.0;
-    /// With scratch. It does not depend on the number of threads, but with top-down builders of fewer than 32,768 primitives for
-    /// each: the parts that they split a node in are shorter then.
+    /// With scratch. It does not depend on the number of threads, but with top-down builders of fewer than 32,768
+    /// primitives for each: the parts that they split a node in are shorter then.
     std::uint64_t peak_device_bytes = 0;
     double sah = 0.0;     ///< Cost of one-primitive leaves by the surface area heuristic (node 1, primitive 1).
     double overlap = 0.0; ///< End-point overlap of the bottom level, if asked for (Aila et al. 2013, every node at 1).
@@ -70,10 +71,15 @@ struct BuildReport {
 };
 
 /// Builds the tree of a valid scene with OpenCL kernels. An empty scene gives an empty tree. Throws CapacityError with
-/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, for areas that are
-/// not valid or beside two levels or oriented boxes, and for pah and blend without areas. O(n) work in the number of primitives
-/// but for the sort's passes, the rounds of codes for long runs, the levels of a top-down builder and exact extents
-/// (dissertation 3.3, 3.5, 3.6).
+/// both numbers, before the work, when it does not fit, and InputError for oriented boxes in the wide8 layout, for
+/// areas that are not valid or beside two levels or oriented boxes, and for pah and blend without areas. O(n) work in
+/// the number of primitives but for the sort's passes, the rounds of codes for long runs, the levels of a top-down
+/// builder and exact extents (dissertation 3.3, 3.5, 3.6).
 Tree build(Device& device, const Scene& scene, const BuildOptions& options = {}, BuildReport* report = nullptr);
+
+/// The tree of one mesh: triangle t has the vertices positions[triangles[t][k]] and is hit as primitive t of instance 0. Throws
+/// InputError for an index out of range and a position that is not finite or not within largest_coordinate; else as build of a scene.
+Tree build(Device& device, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+           const BuildOptions& options = {}, BuildReport* report = nullptr);
 
 } // namespace boxwood

@@ -27,11 +27,12 @@ using BinaryLayout = CollapsedTrees<BinaryNode, Triangle>;
 /// The same with oriented boxes.
 using OrientedLayout = CollapsedTrees<OrientedNode, Triangle>;
 
-/// Collapses binary trees to wide nodes at least expected cost (Ylitie et al. 2017, section 3.1). Over the triangles of `geometry` each
-/// subtree of up to four is one leaf: a block costs the same however many of its slots are filled. Without `geometry` one tree over
-/// instances: leaves are single ones, by their index. One pass for the costs, then a few launches per level of the result; waits once
-/// per level for its size. `volumes` as from aabb_volumes. Leaves name triangles by their index within the tree, or by `names`
-/// where that is not empty; names ascend within each tree. Throws CapacityError when the result does not fit. O(n).
+/// Collapses binary trees to wide nodes at least expected cost (Ylitie et al. 2017, section 3.1). Over the triangles of
+/// `geometry` each subtree of up to four is one leaf: a block costs the same however many of its slots are filled.
+/// Without `geometry` one tree over instances: leaves are single ones, by their index. One pass for the costs, then a
+/// few launches per level of the result; waits once per level for its size. `volumes` as from aabb_volumes. Leaves name
+/// triangles by their index within the tree, or by `names` where that is not empty; names ascend within each tree.
+/// Throws CapacityError when the result does not fit. O(n).
 WideLayout collapse_wide(Device& device, const Topology& topology, BufferView<const Aabb> volumes,
                          const Geometry* geometry = nullptr, BufferView<const std::uint32_t> names = {});
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <CL/cl.h>
+
 #include "boxwood/profile.hpp"
 
 namespace boxwood {
@@ -29,8 +31,8 @@ struct DeviceInfo {
     std::uint64_t global_bytes = 0;         ///< Memory of the device; of a CPU, what limits of the process leave it.
     std::uint64_t largest_buffer_bytes = 0; ///< Largest single allocation.
     bool denormals = false;                 ///< Computes with denormal numbers; else they may count as 0.
-    /// Says that it rounds divisions and square roots of floats correctly; it is then asked to. With this and denormals the
-    /// device gives the same bytes as every other such device.
+    /// Says that it rounds divisions and square roots of floats correctly; it is then asked to. With this and denormals
+    /// the device gives the same bytes as every other such device.
     bool correctly_rounded_divide_sqrt = false;
 };
 
@@ -42,8 +44,8 @@ struct Tuning {
     std::uint32_t lanes = 1; ///< Boxes or rays that a work-item treats at once: 1, 8, 16 (cl/runtime/real.h).
 };
 
-/// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform). Throws
-/// DeviceError when limits of the process leave too little memory to load a driver.
+/// Every OpenCL device with a compiler, in platform order. Empty when there is none (also when there is no platform).
+/// Throws DeviceError when limits of the process leave too little memory to load a driver.
 std::vector<DeviceInfo> list_devices();
 
 /// An OpenCL device with its in-order queue, compiled programs, memory accounting and profile. First argument of
@@ -51,9 +53,13 @@ std::vector<DeviceInfo> list_devices();
 class Device {
 public:
     /// `selector` is an index of list_devices() or a part of a device or platform name (any case). Empty: the
-    /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError: listing the devices where none matches, or
-    /// where the device lacks a language for the kernels.
+    /// environment variable BOXWOOD_DEVICE, else the first device. Throws DeviceError: listing the devices where none
+    /// matches, or where the device lacks a language for the kernels.
     explicit Device(const std::string& selector = "");
+    /// Works in the caller's context and on the caller's queue, both retained, so that buffers of that context can be had as a
+    /// BufferView and no wait is needed between Boxwood's work and the caller's. The queue executes in order; passes are timed only
+    /// if it has profiling enabled. Throws DeviceError for a queue that is out of order or of another context, and as above.
+    Device(cl_context context, cl_command_queue queue);
     ~Device();
     Device(Device&&) noexcept;
     Device& operator=(Device&&) noexcept;

@@ -31,10 +31,11 @@ struct Image {
 };
 
 /// Writes a multi-channel OpenEXR file (float as FLOAT, uint32 as UINT, ZIP), atomically. A name of "layer.part" makes
-/// the channel a part of that layer. Attributes become header attributes of the types string, float, int and m44f (which acts on
-/// rows, as OpenEXR has it). The same image gives the same bytes. Throws OutputError when the file cannot be written, InputError when the image
-/// has no pixel or no channel, or, naming it, when a channel has the wrong size, or when the name of a channel or an attribute is
-/// repeated, empty or longer than 255 bytes, or that of an attribute is one of OpenEXR's own ("channels", "compression", ...).
+/// the channel a part of that layer. Attributes become header attributes of the types string, float, int and m44f
+/// (which acts on rows, as OpenEXR has it). The same image gives the same bytes. Throws OutputError when the file
+/// cannot be written, InputError when the image has no pixel or no channel, or, naming it, when a channel has the wrong
+/// size, or when the name of a channel or an attribute is repeated, empty or longer than 255 bytes, or that of an
+/// attribute is one of OpenEXR's own ("channels", "compression", ...).
 void save_exr(const std::filesystem::path& file, const Image& image);
 
 /// Writes an 8-bit RGB preview, atomically. `rgb` has 3 * width * height bytes, rows top to bottom. Throws

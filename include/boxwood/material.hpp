@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What surfaces are made of and what lights a scene, as glTF 2.0 has them (sections 3.8, 3.9 and the extensions
-// KHR_materials_emissive_strength, KHR_materials_specular, KHR_materials_unlit, KHR_texture_transform, KHR_lights_punctual).
+// KHR_materials_emissive_strength, KHR_materials_specular, KHR_materials_unlit, KHR_texture_transform,
+// KHR_lights_punctual).
 #pragma once
 
 #include <cstddef>
@@ -50,8 +51,8 @@ struct TextureUse {
 /// How alpha is read: not at all, cut off, or as the share of light that the surface stops.
 enum class AlphaMode { opaque, mask, blend };
 
-/// A metallic-roughness material; factors multiply their textures. Colours are linear. Every number is finite and in its
-/// range. The defaults are glTF's.
+/// A metallic-roughness material; factors multiply their textures. Colours are linear. Every number is finite and in
+/// its range. The defaults are glTF's.
 struct Material {
     std::string name;
     glm::vec4 base_color{1.0f}; ///< [0, 1]; the last is alpha.
@@ -69,7 +70,8 @@ struct Material {
     TextureUse base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emission_texture;
 };
 
-/// What triangles without a material are made of: matt, of a light grey (glTF's own default, white metal, shows no shape).
+/// What triangles without a material are made of: matt, of a light grey (glTF's own default, white metal, shows no
+/// shape).
 Material plain_material();
 
 enum class LightKind { point, spot, directional };

@@ -11,8 +11,8 @@ namespace boxwood {
 /// How the light of a pixel is found:
 /// - path: unidirectional path tracing of `depth` bounces.
 /// - direct: the same with one bounce.
-/// - ambient: the simplified model of dissertation 3.7.7: Lambert, punctual lights with shadows, and an ambient light scaled by the
-///   ambient occlusion 1 - e^-t, over `depth` bounces.
+/// - ambient: the simplified model of dissertation 3.7.7: Lambert, punctual lights with shadows, and an ambient light
+///   scaled by the ambient occlusion 1 - e^-t, over `depth` bounces.
 /// - ao: ambient occlusion alone.
 /// - normals: the shading normal as a colour.
 /// - cost: bounding volumes tested for the pixel's ray.
@@ -24,18 +24,19 @@ enum class Primary { rays, raster };
 /// Points for the integrals (cl/render/sampler.h).
 enum class SamplerKind { sobol, stratified, random };
 
-/// How direct light is sampled: towards lights, by the surface's reflection, or both with multiple importance sampling (Veach).
-/// Lights without extent are always sampled towards.
+/// How direct light is sampled: towards lights, by the surface's reflection, or both with multiple importance sampling
+/// (Veach). Lights without extent are always sampled towards.
 enum class Strategy { mis, lights, bsdf };
 
 /// How the diffuse lobe is sampled.
 enum class Hemisphere { cosine, uniform };
 
-/// Texture filters: along the beam's two axes for what the camera sees, itself or in mirrors, and as the next one beyond; by the
-/// wider of them in three dimensions; or the nearest texel.
+/// Texture filters: along the beam's two axes for what the camera sees, itself or in mirrors, and as the next one
+/// beyond; by the wider of them in three dimensions; or the nearest texel.
 enum class TextureFilter { anisotropic, trilinear, nearest };
 
-/// The words used in options, reports and on the command line: "path", "raster", "sobol", ... to_... throw InputError listing them.
+/// The words used in options, reports and on the command line: "path", "raster", "sobol", ... to_... throw InputError
+/// listing them.
 std::string_view name(Integrator integrator);
 std::string_view name(Primary primary);
 std::string_view name(SamplerKind sampler);

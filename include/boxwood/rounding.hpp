@@ -20,21 +20,22 @@ struct Rounding {
     double fraction() const { return size > 0.0 ? distance / size : 0.0; }
 };
 
-/// The largest Rounding::fraction() that Levels::automatic takes for nothing: half a pixel where the mesh fills a picture of 8192,
-/// and about a degree by which facets of a hundredth of its size tilt. A mesh of size 1 passes it 2048 units from the origin;
-/// meshes that are modelled and placed around the origin are eight times below and more.
+/// The largest Rounding::fraction() that Levels::automatic takes for nothing: half a pixel where the mesh fills a
+/// picture of 8192, and about a degree by which facets of a hundredth of its size tilt. A mesh of size 1 passes it 2048
+/// units from the origin; meshes that are modelled and placed around the origin are eight times below and more.
 inline constexpr double rounding_limit = 0x1p-14;
 
-/// Of one instance of a valid scene, exactly: 0 for the identity and wherever the transform needs no rounding. O(vertices of
-/// its mesh).
+/// Of one instance of a valid scene, exactly: 0 for the identity and wherever the transform needs no rounding.
+/// O(vertices of its mesh).
 Rounding rounding_of(const Scene& scene, std::uint32_t instance);
 
-/// The instance of a valid scene with the largest fraction, the first of equals, where that is above rounding_limit; none
-/// otherwise. O(vertices + instances), and as rounding_of for each instance that its mesh's box does not rule out.
+/// The instance of a valid scene with the largest fraction, the first of equals, where that is above rounding_limit;
+/// none otherwise. O(vertices + instances), and as rounding_of for each instance that its mesh's box does not rule out.
 std::optional<Rounding> worst_rounding(const Scene& scene);
 
-/// True when every instance of a valid scene is no larger than the distance of neighbouring floats at its place, in world space. Rays
-/// begin and end in such floats, so that hardly one meets anything, also with two levels. O(vertices + instances).
+/// True when every instance of a valid scene is no larger than the distance of neighbouring floats at its place, in
+/// world space. Rays begin and end in such floats, so that hardly one meets anything, also with two levels. O(vertices
+/// + instances).
 bool collapses(const Scene& scene);
 
 /// For reports, without an end: instances[0] of meshes[0] "ball" by up to 0.25 units, 2.5 % of its size

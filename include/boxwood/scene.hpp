@@ -18,8 +18,9 @@ inline constexpr float largest_coordinate = 1152921504606846976.0f; // 2^60
 
 /// An indexed triangle mesh in object space. Every position is finite and within largest_coordinate, every index is
 /// below positions.size(), and there is at least one triangle. `materials` is empty (all plain) or has one element per
-/// triangle. An attribute is empty or has one finite element per vertex, texture coordinates within largest_coordinate; what is missing is made up where it is needed: the
-/// triangle's own normal, tangents from the texture coordinates, white.
+/// triangle. An attribute is empty or has one finite element per vertex, texture coordinates within largest_coordinate;
+/// what is missing is made up where it is needed: the triangle's own normal, tangents from the texture coordinates,
+/// white.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
@@ -31,8 +32,8 @@ struct Mesh {
     std::vector<glm::vec4> colors{}; ///< Linear, alpha last; multiply the base colour.
 };
 
-/// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float; a mesh that is to be flattened has
-/// to be flat itself (load_gltf makes such meshes).
+/// One placement of a mesh. `transform` is affine (last row 0 0 0 1), finite and invertible in float; a mesh that is to
+/// be flattened has to be flat itself (load_gltf makes such meshes).
 struct Instance {
     std::string name;
     std::uint32_t mesh = 0;    ///< Index into Scene::meshes.
@@ -83,7 +84,8 @@ SceneSphere scene_sphere(const Scene& scene);
 
 /// The scene as one mesh in world space with one identity instance, triangles in instance order; instance i's
 /// triangles start at the sum of the triangle counts of the instances before it. Positions are transformed in double
-/// and rounded once (boxwood/rounding.hpp tells what that loses). Of appearance nothing is kept: no attributes, materials or lights. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
+/// and rounded once (boxwood/rounding.hpp tells what that loses). Of appearance nothing is kept: no attributes,
+/// materials or lights. Cameras are kept. Throws CapacityError when the triangle count reaches 2^31.
 Scene flatten(const Scene& scene);
 
 } // namespace boxwood

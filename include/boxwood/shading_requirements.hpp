@@ -28,12 +28,13 @@ struct ShadingRequirements {
     std::uint32_t attribute_floats() const;
 };
 
-/// Of the meshes of a valid scene (see validate) that have an instance, and the materials that their triangles name. O(size of the
-/// scene).
+/// Of the meshes of a valid scene (see validate) that have an instance, and the materials that their triangles name.
+/// O(size of the scene).
 ShadingRequirements shading_requirements(const Scene& scene);
 
-/// The words for reports: "transforms", "materials", "normals", "tangents", "texture-coordinates", "second-texture-coordinates", "colors",
-/// "textures", "wide-texels", "alpha", "specular", "emission", "punctual-lights".
+/// The words for reports: "transforms", "materials", "normals", "tangents", "texture-coordinates",
+/// "second-texture-coordinates", "colors", "textures", "wide-texels", "alpha", "specular", "emission",
+/// "punctual-lights".
 std::vector<std::string> words(const ShadingRequirements& requirements);
 
 /// A word for reports, and why it is there: the first element that asks for it, or the option.

@@ -11,11 +11,13 @@
 
 namespace boxwood {
 
-/// How a top-down builder splits nodes (paper section 8, thesis 5.1). The strategy is OpenCL functions by name, the caller's own in
-/// `source` (see CONTRIBUTING.md) or these, of cl/build/strategies.h and distribution.h:
-/// - measures: surface_measure, of rays from everywhere; projected_measure, of the areas' rays; expected_measure, of all;
+/// How a top-down builder splits nodes (paper section 8, thesis 5.1). The strategy is OpenCL functions by name, the
+/// caller's own in `source` (see CONTRIBUTING.md) or these, of cl/build/strategies.h and distribution.h:
+/// - measures: surface_measure, of rays from everywhere; projected_measure, of the areas' rays; expected_measure, of
+///   all;
 /// - costs: measured_cost, of the primitives on both sides; overlap_cost, and of what the sides share;
-/// - axes: longest_axes; facing_axes, those that the areas' rays see edge-on; round_robin_axes, by level; all_axes, alike;
+/// - axes: longest_axes; facing_axes, those that the areas' rays see edge-on; round_robin_axes, by level; all_axes,
+///   alike;
 /// - stops: threshold_stop, by the max_leaf_ thresholds; never.
 struct TopDownOptions {
     std::string measure = "surface_measure"; ///< Probability that a ray of the distribution meets a box.
@@ -55,13 +57,14 @@ struct TopDownTree {
     std::uint64_t fallbacks = 0;  ///< Of those nodes, split by the fallback.
 };
 
-/// Builds the trees over the primitives with the boxes `boxes`, tree t over [offsets[t], offsets[t + 1]), at least one, top-down,
-/// level by level, all nodes of a level in the same launches. Primitives go left or right by `centres` (3 floats each; empty: the
-/// middles of their boxes). Boxes and centres within largest_coordinate of 0 (boxwood/scene.hpp), no box empty. The rays of tree t
-/// follow areas[area_starts[t], area_starts[t + 1]) by their shares, the others are isotropic; no starts: no areas.
-/// Deterministic: does not depend on how the work is cut. At most max_levels levels by the strategy, and as many below as halving
-/// takes. O(n) work a level. Throws InputError for options out of range, CapacityError, and ProgramError for a source that does
-/// not compile.
+/// Builds the trees over the primitives with the boxes `boxes`, tree t over [offsets[t], offsets[t + 1]), at least one,
+/// top-down, level by level, all nodes of a level in the same launches. Primitives go left or right by `centres` (3
+/// floats each; empty: the middles of their boxes). Boxes and centres within largest_coordinate of 0
+/// (boxwood/scene.hpp), no box empty. The rays of tree t follow areas[area_starts[t], area_starts[t + 1]) by their
+/// shares, the others are isotropic; no starts: no areas.
+/// Deterministic: does not depend on how the work is cut. At most max_levels levels by the strategy, and as many below
+/// as halving takes. O(n) work a level. Throws InputError for options out of range, CapacityError, and ProgramError for
+/// a source that does not compile.
 TopDownTree topdown(Device& device, BufferView<const Aabb> boxes, BufferView<const float> centres,
                     Buffer<std::uint32_t> offsets, BufferView<const InfluenceRecord> areas,
                     BufferView<const std::uint32_t> area_starts, const TopDownOptions& options);

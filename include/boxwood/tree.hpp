@@ -13,8 +13,8 @@ namespace detail {
 struct TreeArrays;
 }
 
-/// A built tree on a device, for closest_hit, any_hit and render. What it holds in plain arrays is a TreeImage. One that was moved
-/// from may only be assigned to or destroyed.
+/// A built tree on a device, for closest_hit, any_hit and render. What it holds in plain arrays is a TreeImage. One
+/// that was moved from may only be assigned to or destroyed.
 class Tree {
 public:
     Tree(); ///< Without nodes.

@@ -51,8 +51,8 @@ struct TreeImage {
     /// scene, and the total at the end; instances + 1 entries, ascending. Empty otherwise.
     std::vector<std::uint32_t> first_triangles;
 
-    /// Influence areas with local trees, for one level of axis-aligned boxes: their trees stand behind the global one in the
-    /// same arrays, over triangles that it holds too, named as there.
+    /// Influence areas with local trees, for one level of axis-aligned boxes: their trees stand behind the global one
+    /// in the same arrays, over triangles that it holds too, named as there.
     std::vector<LocalArea> areas;
     AreaIndex area_index; ///< Finds `areas`; empty without any.
 
@@ -63,13 +63,14 @@ struct TreeImage {
 };
 
 /// Throws InputError(file, element, what) unless traversal of `tree` is safe and finds every triangle of `scene`, which
-/// must itself be valid: exactly the arrays of the layout and levels are filled; every reference is in range and no node
-/// or leaf is reached twice; depths are as stated; boxes are ordered and not NaN, unused slots as shared/node.h and
-/// shared/triangle.h say; every primitive that an instance reaches is in exactly one leaf, within its mesh for two
-/// levels and within flatten(scene) for one, and each local tree holds as many of those once; areas and their index are as
-/// shared/area.h says; instance records agree with scene.instances. Nodes that no root reaches are
-/// not read, and a mesh without an instance may be what bottom_depth counts. Does not compare boxes or triangles with the
-/// scene's positions. O(nodes + triangles + instances) time, a bit each of memory, and a word for each triangle of a local tree.
+/// must itself be valid: exactly the arrays of the layout and levels are filled; every reference is in range and no
+/// node or leaf is reached twice; depths are as stated; boxes are ordered and not NaN, unused slots as shared/node.h
+/// and shared/triangle.h say; every primitive that an instance reaches is in exactly one leaf, within its mesh for two
+/// levels and within flatten(scene) for one, and each local tree holds as many of those once; areas and their index are
+/// as shared/area.h says; instance records agree with scene.instances. Nodes that no root reaches are not read, and a
+/// mesh without an instance may be what bottom_depth counts. Does not compare boxes or triangles with the scene's
+/// positions. O(nodes + triangles + instances) time, a bit each of memory, and a word for each triangle of a local
+/// tree.
 void validate(const TreeImage& tree, const Scene& scene, const std::string& file);
 
 } // namespace boxwood

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-areas: trees with an influence area beside the same without, in the configurations of the influence study:
-// whether closest hits agree with brute force, the time of rays that follow the area, and of the rule that takes every hit in the
-// local tree for the closest, which is wrong. In one process and in turns; with --report also written as JSON.
+// boxwood-benchmark-areas: trees with an influence area beside the same without, in the configurations of the influence
+// study: whether closest hits agree with brute force, the time of rays that follow the area, and of the rule that takes
+// every hit in the local tree for the closest, which is wrong. In one process and in turns; with --report also written
+// as JSON.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -31,8 +32,8 @@ struct Choice {
     std::string builder = "sah";
 };
 
-/// A quarter each: in any direction from within the region, from its faces, along the area's lines from its faces, and parallel to
-/// its edges from its faces, which never leave the face or leave it at an edge.
+/// A quarter each: in any direction from within the region, from its faces, along the area's lines from its faces, and
+/// parallel to its edges from its faces, which never leave the face or leave it at an edge.
 std::vector<Ray> hard_rays(const InfluenceRecord& area, std::uint32_t count) {
     const auto corner = corners(area);
     const auto mix = [](const glm::dvec3& a, const glm::dvec3& b, double t) { return a + t * (b - a); };
@@ -117,24 +118,24 @@ Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, cons
     all.insert(all.end(), own.begin(), own.begin() + choice.rays / 2);
     const auto hits_of = [&](const auto& query, const Tree& tree) {
         const Buffer<Ray> rays = upload(device, all, "rays");
-        const Buffer<Hit> hits = make_buffer<Hit>(device, all.size(), "hits");
+        Buffer<Hit> hits = make_buffer<Hit>(device, all.size(), "hits");
         query(tree, rays, hits);
         return download(device, hits);
     };
-    const auto exact = [&](const Tree& tree, const Buffer<Ray>& rays, const Buffer<Hit>& hits) {
+    const auto exact = [&](const Tree& tree, const Buffer<Ray>& rays, Buffer<Hit>& hits) {
         closest_hit(device, tree, rays, hits);
     };
-    const auto naive = [&](const Tree& tree, const Buffer<Ray>& rays, const Buffer<Hit>& hits) {
+    const auto naive = [&](const Tree& tree, const Buffer<Ray>& rays, Buffer<Hit>& hits) {
         naive_closest_hit(device, tree, rays, hits);
     };
     const std::vector<Hit> expected =
         choice.brute_force ? test::BruteForce(scene, Levels::one).closest_hits(all) : hits_of(exact, without);
     result.wrong = count_different(hits_of(exact, with), expected);
-    if (with.areas.size() > 0) result.naive_wrong = count_different(hits_of(naive, with), expected);
+    if (with.arrays().areas.size() > 0) result.naive_wrong = count_different(hits_of(naive, with), expected);
 
     const Buffer<Ray> rays = upload(device, own, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, own.size(), "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, own.size(), "statistics");
+    Buffer<Hit> hits = make_buffer<Hit>(device, own.size(), "hits");
+    Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, own.size(), "statistics");
     const auto count = [&](const Tree& tree, double& tests) {
         closest_hit(device, tree, rays, hits, statistics);
         double local = 0.0;
@@ -149,7 +150,7 @@ Result measure(Device& device, const Mesh& mesh, const InfluenceArea& area, cons
     const auto ms =
         benchmarks::race(device,
                          {[&] { exact(without, rays, hits); }, [&] { exact(with, rays, hits); },
-                          [&] { with.areas.size() > 0 ? naive(with, rays, hits) : exact(with, rays, hits); }},
+                          [&] { with.arrays().areas.size() > 0 ? naive(with, rays, hits) : exact(with, rays, hits); }},
                          rounds);
     result.without_ms = ms[0];
     result.with_ms = ms[1];

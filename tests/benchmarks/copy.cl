@@ -7,12 +7,12 @@
 #error "define GROUP_SIZE"
 #endif
 
-/// @pre  `in` and `out` hold `count` elements, a multiple of 16, as is `length`; `slices` slices of `length` cover them.
+/// @pre  `in` and `out` hold `count` elements, a multiple of 16, as is `length`; `slices` slices of `length` cover
+///       them.
 /// @post `out` is `in`.
 /// Every element has one writer: no barrier.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void copy(global const uint* restrict in,
-                                                                         global uint* restrict out, uint count,
-                                                                         uint length, uint slices) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void copy(global const uint* restrict in, global uint* restrict out, uint count, uint length, uint slices) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     const uint first = slice * length;

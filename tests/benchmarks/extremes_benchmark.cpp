@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-extremes: what meshes at the extremes of shape and of float cost the kinds of bounding volumes against
-// an ordinary mesh of as many triangles, and how far the boxes are from exact ones. Alternating runs, medians.
+// boxwood-benchmark-extremes: what meshes at the extremes of shape and of float cost the kinds of bounding volumes
+// against an ordinary mesh of as many triangles, and how far the boxes are from exact ones. Alternating runs, medians.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

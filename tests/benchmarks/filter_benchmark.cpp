@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-filter: error and time of the texture filters (dissertation figure 8) against the mean of 256 samples of each
-// pixel, on a checkered plane up to the horizon and on the scenes given.
+// boxwood-benchmark-filter: error and time of the texture filters (dissertation figure 8) against the mean of 256
+// samples of each pixel, on a checkered plane up to the horizon and on the scenes given.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

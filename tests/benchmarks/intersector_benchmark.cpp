@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-intersector: what the watertight ray-triangle test costs beside that of Moller and Trumbore, and what it is
-// worth: rays per second on the scenes given, and against exact arithmetic the hits that are missed, those that are none, and
-// the error of t.
+// boxwood-benchmark-intersector: what the watertight ray-triangle test costs beside that of Moller and Trumbore, and
+// what it is worth: rays per second on the scenes given, and against exact arithmetic the hits that are missed, those
+// that are none, and the error of t.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -114,7 +114,7 @@ Errors compare(const Case& one, const std::vector<Hit>& hits) {
             errors.missed += exact.t >= 0;
             continue;
         }
-        const test::ExactHit hit = test::exact_hit(one.rays[i], triangles[hits[i].primitive]);
+        const test::ExactIntersection hit = test::exact_intersection(one.rays[i], triangles[hits[i].primitive]);
         errors.false_hits += !hit.inside;
         if (hit.inside) off.push_back(ulps(hits[i].t, hit.t));
     }
@@ -137,7 +137,7 @@ void price_accuracy(Device& device, std::size_t rays, nlohmann::json& ratios) {
     for (const Case& one : cases) {
         const Tree tree = build(device, one.scene);
         const Buffer<Ray> queries = upload(device, one.rays, "rays");
-        const Buffer<Hit> hits = make_buffer<Hit>(device, one.rays.size(), "hits");
+        Buffer<Hit> hits = make_buffer<Hit>(device, one.rays.size(), "hits");
         for (const Intersector intersector : both) {
             closest_hit(device, tree, queries, hits, {.intersector = intersector});
             const Errors errors = compare(one, download(device, hits));
@@ -160,8 +160,8 @@ void price_speed(Device& device, const std::string& file, const Arguments& argum
     const std::string title = file.empty() ? "terrain" : std::filesystem::path(file).stem().string();
     const Camera camera = scene.cameras.empty() ? default_camera(scene) : scene.cameras.front();
     constexpr std::uint32_t side = 1024;
-    const Buffer<Ray> rays = make_buffer<Ray>(device, side * side, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "hits");
+    Buffer<Ray> rays = make_buffer<Ray>(device, side * side, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "hits");
     primary_rays(device, camera, side, side, rays);
     for (const Layout layout : {Layout::wide8, Layout::binary}) {
         const Tree tree = build(device, scene, {.layout = layout, .builder = Builder::sah});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-lamps: shadow rays towards a directional and a rectangular light over each scene, by one tree (sah), with the
-// local trees of the areas of these lights that are worth it (pah) and of all of them, and by one tree that knows of them (blend).
-// In one process and in turns; with --report also written as JSON.
+// boxwood-benchmark-lamps: shadow rays towards a directional and a rectangular light over each scene, by one tree
+// (sah), with the local trees of the areas of these lights that are worth it (pah) and of all of them, and by one tree
+// that knows of them (blend). In one process and in turns; with --report also written as JSON.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -68,8 +68,8 @@ Lit light(const std::string& name) {
 /// From what 512 x 512 camera rays hit: one ray to the sun and one to a point of the lamp, for each.
 std::vector<Ray> shadow_rays_of(Device& device, const Lit& lit, const Tree& tree) {
     constexpr std::uint32_t side = 512;
-    const Buffer<Ray> primary = make_buffer<Ray>(device, side * side, "primary rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "hits");
+    Buffer<Ray> primary = make_buffer<Ray>(device, side * side, "primary rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "hits");
     const Camera camera = lit.scene.cameras.empty() ? default_camera(lit.scene) : lit.scene.cameras[0];
     primary_rays(device, camera, side, side, primary);
     closest_hit(device, tree, primary, hits);
@@ -105,8 +105,8 @@ Tree build_with(Device& device, const Scene& scene, Builder builder, const std::
 
 /// Share of the rays that a local tree answered in a search for the closest hit.
 double answered(Device& device, const Tree& tree, const Buffer<Ray>& rays) {
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
-    const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "statistics");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, rays.size(), "statistics");
     closest_hit(device, tree, rays, hits, statistics);
     double count = 0.0;
     for (const RayStatistics& each : download(device, statistics)) count += each.areas == 2;
@@ -123,7 +123,7 @@ void measure(Device& device, const std::string& name, const Arguments& arguments
         build_with(device, lit.scene, Builder::sah, {}), build_with(device, lit.scene, Builder::pah, local),
         build_with(device, lit.scene, Builder::pah, lights), build_with(device, lit.scene, Builder::blend, known)};
     const Buffer<Ray> rays = upload(device, shadow_rays_of(device, lit, trees[0]), "shadow rays");
-    const Buffer<std::uint32_t> shadows = make_buffer<std::uint32_t>(device, rays.size(), "shadows");
+    Buffer<std::uint32_t> shadows = make_buffer<std::uint32_t>(device, rays.size(), "shadows");
     std::vector<std::function<void()>> contenders;
     for (const Tree& tree : trees) contenders.push_back([&] { any_hit(device, tree, rays, shadows); });
     std::size_t different = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-noise: how far pictures of few samples are from one of many, by sampler, hemisphere and strategy, over samples
-// and over time; and what share of the time each stage has.
+// boxwood-benchmark-noise: how far pictures of few samples are from one of many, by sampler, hemisphere and strategy,
+// over samples and over time; and what share of the time each stage has.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -102,15 +102,15 @@ private:
                     device_.finish();
                 }};
     }
-    Contender copy_kernel(const Buffer<std::uint32_t>& in, const Buffer<std::uint32_t>& out) {
+    Contender copy_kernel(const Buffer<std::uint32_t>& in, Buffer<std::uint32_t>& out) {
         return on_device("copy kernel", [&] {
             const Slices slices = cut(device_, in.size(), 16);
             launch(device_, {"copy.cl", "copy"}, "copy", slices.slices, in, out, static_cast<cl_uint>(in.size()),
                    slices.length, slices.slices);
         });
     }
-    Contender copy_command(const Buffer<std::uint32_t>& in, const Buffer<std::uint32_t>& out) {
-        return on_device("clEnqueueCopyBuffer", [&] { boxwood::copy<std::uint32_t>(device_, in, out); });
+    Contender copy_command(const Buffer<std::uint32_t>& in, Buffer<std::uint32_t>& out) {
+        return on_device("clEnqueueCopyBuffer", [&] { boxwood::copy(device_, in, out); });
     }
 
     Device& device_;
@@ -124,14 +124,14 @@ nlohmann::json Benchmark::sort(std::size_t count) {
     std::vector<Pair> pairs(count), work;
     for (std::size_t i = 0; i < count; ++i) pairs[i] = {keys[i], positions[i]};
     const auto source_keys = upload(device_, keys, "keys"), source_values = upload(device_, positions, "values");
-    const auto work_keys = make_buffer<std::uint32_t>(device_, count, "keys");
-    const auto work_values = make_buffer<std::uint32_t>(device_, count, "values");
+    auto work_keys = make_buffer<std::uint32_t>(device_, count, "keys");
+    auto work_values = make_buffer<std::uint32_t>(device_, count, "values");
     const auto copy_pairs = [&] { work = pairs; };
 
-    Contender ours = on_device("boxwood", [&] { radix_sort<std::uint32_t>(device_, work_keys, work_values); });
+    Contender ours = on_device("boxwood", [&] { radix_sort(device_, work_keys, work_values); });
     ours.prepare = [&] {
-        boxwood::copy<std::uint32_t>(device_, source_keys, work_keys);
-        boxwood::copy<std::uint32_t>(device_, source_values, work_values);
+        boxwood::copy(device_, source_keys, work_keys);
+        boxwood::copy(device_, source_values, work_values);
         device_.finish();
     };
     std::vector<Contender> contenders{
@@ -149,12 +149,12 @@ nlohmann::json Benchmark::scan(std::size_t count) {
     const Words words = random_words(count);
     Words result(count);
     const auto in = upload(device_, words, "words");
-    const auto out = make_buffer<std::uint32_t>(device_, count, "sums");
+    auto out = make_buffer<std::uint32_t>(device_, count, "sums");
     const auto floats = upload(device_, std::vector<float>(words.begin(), words.end()), "floats");
-    const auto float_sums = make_buffer<float>(device_, count, "sums of floats");
+    auto float_sums = make_buffer<float>(device_, count, "sums of floats");
     std::vector<Contender> contenders{
-        on_device("boxwood", [&] { exclusive_scan<std::uint32_t>(device_, in, Operator::sum, out); }),
-        on_device("boxwood, floats", [&] { exclusive_scan<float>(device_, floats, Operator::sum, float_sums); }),
+        on_device("boxwood", [&] { exclusive_scan(device_, in, Operator::sum, out); }),
+        on_device("boxwood, floats", [&] { exclusive_scan(device_, floats, Operator::sum, float_sums); }),
         copy_kernel(in, out),
         copy_command(in, out),
         {"std::exclusive_scan", nothing,
@@ -181,16 +181,16 @@ nlohmann::json Benchmark::compact(std::size_t count) {
     Words keep(count), result(count);
     for (std::size_t i = 0; i < count; ++i) keep[i] = words[i] >> 31; // half of them, at random
     const auto in = upload(device_, words, "words"), flags = upload(device_, keep, "flags");
-    const auto out = make_buffer<std::uint32_t>(device_, count, "kept");
-    const auto total = make_buffer<std::uint32_t>(device_, 1, "count");
-    std::vector<Contender> contenders{
-        on_device("boxwood", [&] { boxwood::compact<std::uint32_t>(device_, in, flags, out, total); }),
-        copy_kernel(in, out),
-        copy_command(in, out),
-        {"std::copy_if", nothing, [&] {
-             std::size_t i = 0;
-             std::copy_if(words.begin(), words.end(), result.begin(), [&](std::uint32_t) { return keep[i++] != 0; });
-         }}};
+    auto out = make_buffer<std::uint32_t>(device_, count, "kept");
+    auto total = make_buffer<std::uint32_t>(device_, 1, "count");
+    std::vector<Contender> contenders{on_device("boxwood", [&] { boxwood::compact(device_, in, flags, out, total); }),
+                                      copy_kernel(in, out),
+                                      copy_command(in, out),
+                                      {"std::copy_if", nothing, [&] {
+                                           std::size_t i = 0;
+                                           std::copy_if(words.begin(), words.end(), result.begin(),
+                                                        [&](std::uint32_t) { return keep[i++] != 0; });
+                                       }}};
 #ifdef BOXWOOD_HAVE_TBB
     contenders.push_back({"tbb::parallel_scan", nothing, [&] {
                               tbb::parallel_scan(
@@ -211,10 +211,10 @@ nlohmann::json Benchmark::compact(std::size_t count) {
 nlohmann::json Benchmark::reduce(std::size_t count) {
     const Words words = random_words(count);
     const auto in = upload(device_, words, "words");
-    const auto out = make_buffer<std::uint32_t>(device_, 1, "sum");
+    auto out = make_buffer<std::uint32_t>(device_, 1, "sum");
     volatile std::uint32_t sink = 0;
     std::vector<Contender> contenders{
-        on_device("boxwood", [&] { boxwood::reduce<std::uint32_t>(device_, in, Operator::sum, out); }),
+        on_device("boxwood", [&] { boxwood::reduce(device_, in, Operator::sum, out); }),
         {"std::reduce", nothing, [&] { sink = std::reduce(words.begin(), words.end(), std::uint32_t{0}); }}};
 #ifdef BOXWOOD_HAVE_TBB
     contenders.push_back(
@@ -234,8 +234,8 @@ nlohmann::json Benchmark::gather(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         places[i] = static_cast<std::uint32_t>(std::uint64_t{words[i]} * count >> 32);
     const auto in = upload(device_, words, "words"), indices = upload(device_, places, "indices");
-    const auto out = make_buffer<std::uint32_t>(device_, count, "gathered");
-    return race({on_device("boxwood", [&] { boxwood::gather<std::uint32_t>(device_, in, indices, out); }),
+    auto out = make_buffer<std::uint32_t>(device_, count, "gathered");
+    return race({on_device("boxwood", [&] { boxwood::gather(device_, in, indices, out); }),
                  {"std::transform", nothing,
                   [&] {
                       std::transform(places.begin(), places.end(), result.begin(),

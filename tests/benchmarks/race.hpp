@@ -10,8 +10,8 @@
 
 namespace boxwood::benchmarks {
 
-/// Wall-clock milliseconds of each contender, what it enqueues included: medians of rounds in which all have a turn, after one that
-/// does not count.
+/// Wall-clock milliseconds of each contender, what it enqueues included: medians of rounds in which all have a turn,
+/// after one that does not count.
 inline std::vector<double> race(Device& device, const std::vector<std::function<void()>>& contenders, int rounds) {
     using Clock = std::chrono::steady_clock;
     std::vector<std::vector<double>> times(contenders.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-raster: primary hits by the rasteriser against primary rays, on the scenes given: whether the two are the same, and
-// the time of each. Alternating runs, medians.
+// boxwood-benchmark-raster: primary hits by the rasteriser against primary rays, on the scenes given: whether the two
+// are the same, and the time of each. Alternating runs, medians.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -51,8 +51,8 @@ Times time_both(Device& device, const Scene& scene, const Camera& camera, std::u
     const Geometry geometry = upload(device, scene);
     const Rasteriser rasteriser(device, scene, tree, geometry);
     const Buffer<CameraRecord> record = upload_camera(device, camera, size, size);
-    const Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, pixels, "hits");
+    Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, pixels, "hits");
     primary_rays(device, record, 0, rays);
     Times times;
     for (int round = -1; round < rounds; ++round) {

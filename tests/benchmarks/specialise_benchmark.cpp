@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-specialise: what it saves to make programs and buffers for what a scene requires: path tracing by the
-// specialised programs beside the ones with everything on, two levels included. In one process and in turns; medians and ratios are
-// printed and, with --report, written as JSON.
+// boxwood-benchmark-specialise: what it saves to make programs and buffers for what a scene requires: path tracing by
+// the specialised programs beside the ones with everything on, two levels included. In one process and in turns;
+// medians and ratios are printed and, with --report, written as JSON.
 #include <chrono>
 #include <cstdio>
 #include <string>

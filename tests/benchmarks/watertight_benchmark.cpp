@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of tree, all of
-// which must give the same hits; of slivers, grazing rays and random bits those of brute force. Runs for as many rays as asked, and
-// fails on one miss or one difference.
+// boxwood-benchmark-watertight: rays from inside of closed meshes, none of which may get out, through every kind of
+// tree, all of which must give the same hits; of slivers, grazing rays and random bits those of brute force. Runs for
+// as many rays as asked, and fails on one miss or one difference.
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -70,8 +70,8 @@ bool same(const Hit& a, const Hit& b) {
 
 void check_batch(Device& device, const std::vector<Tree>& trees, const std::vector<Ray>& batch, Count& count) {
     const Buffer<Ray> rays = upload(device, batch, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, batch.size(), "hits");
-    const Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, batch.size(), "flags");
+    Buffer<Hit> hits = make_buffer<Hit>(device, batch.size(), "hits");
+    Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, batch.size(), "flags");
     std::vector<Hit> first;
     for (const Tree& tree : trees) {
         closest_hit(device, tree, rays, hits);
@@ -107,7 +107,7 @@ Count check_scene(Device& device, const ClosedScene& closed, Levels levels, doub
 Count check_extremes(Device& device, const test::ExtremeRays& made, Levels levels) {
     const std::vector<Hit> expected = test::BruteForce(made.scene, levels).closest_hits(made.rays);
     const Buffer<Ray> rays = upload(device, made.rays, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, made.rays.size(), "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, made.rays.size(), "hits");
     Count count;
     for (const Kind& kind : kinds_of(levels)) {
         closest_hit(device, build_kind(device, made.scene, kind, levels), rays, hits);

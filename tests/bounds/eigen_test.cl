@@ -7,8 +7,8 @@
 #include "bounds/moments.h"
 
 /// Matrices xx, yy, zz, xy, xz, yz to the rows of frames.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void eigen_test(global const float* matrices,
-                                                                               global float* frames, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void eigen_test(global const float* matrices, global float* frames, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     real v[6];
@@ -26,11 +26,11 @@ static void moments_of_point(const real* p, Moments* m) {
     *m = point;
 }
 
-/// From sets of POINTS points of equal weight, a reference and a factor: mean less the reference and covariance, after the
-/// points were merged one by one about the first point (first 9 results), and in pairs, moved to the reference and
+/// From sets of POINTS points of equal weight, a reference and a factor: mean less the reference and covariance, after
+/// the points were merged one by one about the first point (first 9 results), and in pairs, moved to the reference and
 /// scaled by the factor (the other 9).
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void moments_test(global const float* sets,
-                                                                                 global float* results, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void moments_test(global const float* sets, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     real v[3 * POINTS + 4];
@@ -55,8 +55,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void moments_test
     move_moments(factor, &shift, &pairs[0]);
     for (int k = 0; k < 2; ++k) {
         const Moments* m = k == 0 ? &one_by_one : &pairs[0];
-        const real values[9] = {m->mean.x,        m->mean.y,        m->mean.z,        m->covariance.xx, m->covariance.yy,
-                                m->covariance.zz, m->covariance.xy, m->covariance.xz, m->covariance.yz};
+        const real values[9] = {m->mean.x,        m->mean.y,        m->mean.z,
+                                m->covariance.xx, m->covariance.yy, m->covariance.zz,
+                                m->covariance.xy, m->covariance.xz, m->covariance.yz};
         store_components(values, results + 9 * k * count, count, at, 9);
     }
 }

@@ -85,8 +85,9 @@ std::vector<Matrix> sample_matrices(int count) {
     return matrices;
 }
 
-/// A normalised row is off by 3/2 roundoffs for its square (three roundings, under a root), and one each for root, reciprocal
-/// and product: its length by 4.5. The third row has the lengths of two and 3 roundings of its own: its square is off by 24.
+/// A normalised row is off by 3/2 roundoffs for its square (three roundings, under a root), and one each for root,
+/// reciprocal and product: its length by 4.5. The third row has the lengths of two and 3 roundings of its own: its
+/// square is off by 24.
 constexpr double frame_bound = 24;
 
 /// The worst entry of F F^T - I, in units of roundoff; negative when the frame is left-handed.
@@ -101,7 +102,7 @@ double off_orthonormal(const Rows& rows) {
 
 } // namespace
 
-TEST_CASE("eigenvectors: orthonormal, right-handed, by descending eigenvalue, of every kind of matrix") {
+TEST_CASE("eigen: eigenvectors: orthonormal, right-handed, by descending eigenvalue, of every kind of matrix") {
     const std::vector<Matrix> matrices = sample_matrices(small_sizes() ? 2 : 100);
     const std::vector<Rows> frames = eigenvectors(matrices);
     double worst_frame = 0, worst_residual = 0, worst_value = 0;
@@ -131,7 +132,7 @@ TEST_CASE("eigenvectors: orthonormal, right-handed, by descending eigenvalue, of
                                          << worst_value);
 }
 
-TEST_CASE("eigenvectors: diagonal matrices have the world's axes") {
+TEST_CASE("eigen: eigenvectors: diagonal matrices have the world's axes") {
     const std::vector<Rows> frames = eigenvectors({{0, 0, 0, 0, 0, 0}, {1, 1, 1, 0, 0, 0}, {2000, 1, 0, 0, 0, 0}});
     for (const Rows& frame : frames) CHECK(frame == Rows{1, 0, 0, 0, 1, 0, 0, 0, 1});
     // diag(0, 1, 2000): z, y, and minus or plus x as handedness has it.
@@ -141,7 +142,7 @@ TEST_CASE("eigenvectors: diagonal matrices have the world's axes") {
     CHECK(std::abs(turned[6]) == 1);
 }
 
-TEST_CASE("eigenvectors: the size of a matrix does not matter, to the bit") {
+TEST_CASE("eigen: eigenvectors: the size of a matrix does not matter, to the bit") {
     std::vector<Matrix> matrices;
     for (const Matrix& m : sample_matrices(small_sizes() ? 1 : 10)) {
         // Only those that stay normal when scaled.
@@ -167,7 +168,7 @@ TEST_CASE("eigenvectors: the size of a matrix does not matter, to the bit") {
     }
 }
 
-TEST_CASE("eigenvectors: of denormal and of the largest floats as of the same matrix at one") {
+TEST_CASE("eigen: eigenvectors: of denormal and of the largest floats as of the same matrix at one") {
     const std::vector<Matrix> matrices = at_one(sample_matrices(small_sizes() ? 1 : 10));
     const std::vector<Rows> expected = eigenvectors(matrices);
     for (const int exponent : end_exponents) {
@@ -181,7 +182,7 @@ TEST_CASE("eigenvectors: of denormal and of the largest floats as of the same ma
     CHECK(same_bits(eigenvectors(times_power(whole, 127)), eigenvectors(whole)));
 }
 
-TEST_CASE("moments: merged one by one and in pairs, near and far from the origin") {
+TEST_CASE("eigen: moments: merged one by one and in pairs, near and far from the origin") {
     constexpr int points = 8;
     Random random(6);
     std::vector<std::array<float, 3 * points + 4>> sets;

@@ -123,7 +123,7 @@ const Points tetrahedron = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 
 } // namespace
 
-TEST_CASE("fit_obbs: none, one, two and three points, and empty segments between them") {
+TEST_CASE("fit_obb: none, one, two and three points, and empty segments between them") {
     CHECK(fit(std::vector<Points>{}).empty());
     const std::vector<Points> sets = {{}, {{1, 2, 3}}, {}, {{0, 0, 0}, {1, 2, 2}}, {{0, 0, 0}, {4, 0, 0}, {0, 1, 0}},
                                       {}};
@@ -140,7 +140,7 @@ TEST_CASE("fit_obbs: none, one, two and three points, and empty segments between
     CHECK(fit(std::vector<Points>(3)).size() == 3); // no points at all
 }
 
-TEST_CASE("fit_obbs: identical, collinear and coplanar points") {
+TEST_CASE("fit_obb: identical, collinear and coplanar points") {
     const Points same(100, glm::vec3(0.1f, -7, 1e5f));
     const Obb point = fit(same);
     check_valid(point, same);
@@ -160,7 +160,7 @@ TEST_CASE("fit_obbs: identical, collinear and coplanar points") {
     CHECK(sheet.extent[2] <= 16 * 0x1p-24 * 4);
 }
 
-TEST_CASE("fit_obbs: clouds against double precision, any size, anywhere") {
+TEST_CASE("fit_obb: clouds against double precision, any size, anywhere") {
     struct Place {
         double size, offset;
     };
@@ -175,8 +175,8 @@ TEST_CASE("fit_obbs: clouds against double precision, any size, anywhere") {
             check_valid(box, points);
             const Reference exact = reference(points);
             REQUIRE(exact.gap > 0.05);
-            // Roundoff turns the axes by at most a few of it over the gap; the width of a box changes by the sine of the
-            // turn times the others. The step of the centre's grid adds to each width.
+            // Roundoff turns the axes by at most a few of it over the gap; the width of a box changes by the sine of
+            // the turn times the others. The step of the centre's grid adds to each width.
             const double step = 3 * 0x1p-24 * place.offset / place.size;
             const double bound = 256 * 0x1p-24 / exact.gap + 8 * step;
             CHECK(volume(box) == doctest::Approx(exact.volume).epsilon(bound));
@@ -185,7 +185,7 @@ TEST_CASE("fit_obbs: clouds against double precision, any size, anywhere") {
     }
 }
 
-TEST_CASE("fit_obbs: needles") {
+TEST_CASE("fit_obb: needles") {
     for (int n = 0; n < 5; ++n) {
         const Points points = map(cloud(200, {1, 1e-6, 1e-6}, n), some_rotation(n + 10));
         const Obb box = fit(points);
@@ -198,7 +198,7 @@ TEST_CASE("fit_obbs: needles") {
     }
 }
 
-TEST_CASE("fit_obbs: a few points far from the many that decide the mean") {
+TEST_CASE("fit_obb: a few points far from the many that decide the mean") {
     // All but two of 100,002 points within 1e-4 of a corner of the box: what is summed about its centre would cancel.
     const std::size_t count = small_sizes() ? 1000 : 100000;
     Points points = map(cloud(count, {3e-4, 2e-4, 1e-4}, 7), some_rotation(7));
@@ -210,7 +210,7 @@ TEST_CASE("fit_obbs: a few points far from the many that decide the mean") {
     CHECK(volume(box) <= exact.volume * (1 + 1e-2));
 }
 
-TEST_CASE("fit_obbs: rotated cubes come out as cubes, though their covariance has no axes") {
+TEST_CASE("fit_obb: rotated cubes come out as cubes, though their covariance has no axes") {
     std::vector<Points> sets;
     for (int n = 0; n < 40; ++n) sets.push_back(map(cube(n % 2 == 0 ? 1 : 4), 50.0 * some_rotation(n)));
     for (const double degrees : {0.0, 15.0, 45.0, 90.0})
@@ -226,7 +226,7 @@ TEST_CASE("fit_obbs: rotated cubes come out as cubes, though their covariance ha
     }
 }
 
-TEST_CASE("fit_obbs: sphere, tetrahedron, square, and points as a cube's") {
+TEST_CASE("fit_obb: sphere, tetrahedron, square, and points as a cube's") {
     Points sphere;
     for (int i = 0; i < 2000; ++i) { // Fibonacci's
         const double z = 1 - (2 * i + 1) / 2000.0, r = std::sqrt(1 - z * z), t = i * 2.399963229728653;
@@ -256,7 +256,7 @@ TEST_CASE("fit_obbs: sphere, tetrahedron, square, and points as a cube's") {
     }
 }
 
-TEST_CASE("fit_obbs: denormals and sizes far apart") {
+TEST_CASE("fit_obb: denormals and sizes far apart") {
     const Points denormals = map(cloud(100, {3, 2, 1}, 1), 0x1p-140 * some_rotation(1));
     check_valid(fit(denormals), denormals);
     const Points one_step = {{0, 0, 0}, {0x1p-149f, 0, 0}, {0, 0x1p-149f, 0}};
@@ -267,7 +267,7 @@ TEST_CASE("fit_obbs: denormals and sizes far apart") {
     check_valid(fit(wide), wide);
 }
 
-TEST_CASE("fit_obbs: a set scaled by a power of two has the same axes, to the bit") {
+TEST_CASE("fit_obb: a set scaled by a power of two has the same axes, to the bit") {
     std::vector<Points> sets = {map(cube(), some_rotation(3)), map(cloud(1500, {3, 2, 1}, 1), some_rotation(4))};
     const std::vector<Obb> expected = fit(sets);
     for (const int exponent : {-40, -1, 13, 40}) {
@@ -281,7 +281,7 @@ TEST_CASE("fit_obbs: a set scaled by a power of two has the same axes, to the bi
     }
 }
 
-TEST_CASE("fit_obbs: many segments, cut any way, give the same bytes") {
+TEST_CASE("fit_obb: many segments, cut any way, give the same bytes") {
     Random random(11);
     std::vector<Points> sets;
     // Segments within, across and over many tiles of 1024.
@@ -339,7 +339,7 @@ Mesh cut_box(int n, const glm::dmat3& rotation) {
 
 } // namespace
 
-TEST_CASE("fit_mesh_obbs: a box comes out whatever its faces are cut into") {
+TEST_CASE("fit_obb: fit_mesh_obbs: a box comes out whatever its faces are cut into") {
     Scene scene;
     for (int n = 1; n <= 6; ++n) scene.meshes.push_back(cut_box(n, some_rotation(n)));
     const std::vector<Obb> boxes = fit_meshes(scene);
@@ -356,7 +356,7 @@ TEST_CASE("fit_mesh_obbs: a box comes out whatever its faces are cut into") {
     }
 }
 
-TEST_CASE("fit_mesh_obbs: meshes without area, of one triangle, and none") {
+TEST_CASE("fit_obb: fit_mesh_obbs: meshes without area, of one triangle, and none") {
     CHECK(fit_meshes(Scene{}).empty());
     Scene scene;
     scene.meshes.push_back({"triangle", {{0, 0, 0}, {4, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});

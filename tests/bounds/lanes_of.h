@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records of floats as tests lay them out: component k of record i is at k * count + i. LANES of them are read and written
-// from record `at` on; `count` is a multiple of LANES.
+// Records of floats as tests lay them out: component k of record i is at k * count + i. LANES of them are read and
+// written from record `at` on; `count` is a multiple of LANES.
 #ifndef BOXWOOD_TESTS_LANES_OF_H
 #define BOXWOOD_TESTS_LANES_OF_H
 #include "runtime/vector.h"

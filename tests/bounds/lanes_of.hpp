@@ -38,7 +38,7 @@ in_lanes(KernelRef kernel, const std::vector<std::array<float, out_size>>& start
     const char* const lanes[3] = {"1", "8", "16"};
     for (int k = 0; k < 3; ++k) {
         const Guarded<float> out(device, initial.size());
-        write<float>(device, initial, out.view());
+        write(device, initial, out.view());
         kernel.defines["LANES"] = lanes[k];
         launch(device, kernel, kernel.name.c_str(), count, upload(device, by_components(inputs), "input")...,
                out.view(), static_cast<std::uint32_t>(count));

@@ -87,8 +87,8 @@ TEST_CASE("obb: the box of a matrix holds its cube, hardly more, at every size")
                 CHECK(contains(box, p));
             }
             if (size < 1e-40) continue; // widths of a few denormals: no digits to compare
-            // A roundoff in each of three widths, in a width those of axis and centre: relative to the largest entry, over
-            // the smallest width. Skip slivers, which only the corners can judge.
+            // A roundoff in each of three widths, in a width those of axis and centre: relative to the largest entry,
+            // over the smallest width. Skip slivers, which only the corners can judge.
             const double exact = volume_of_corners(m), relative = exact / (size * size * size);
             if (relative < 0.05) continue;
             CHECK(std::abs(volume(box) / exact - 1) <= 64 * 0x1p-24 / relative);

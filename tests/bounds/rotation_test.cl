@@ -18,9 +18,8 @@ static void store_quaternion(const Quaternion* q, global float* out, uint count,
 }
 
 /// Frames to quaternions.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void quaternion_test(global const float* frames,
-                                                                                    global float* quaternions,
-                                                                                    uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void quaternion_test(global const float* frames, global float* quaternions, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Frame frame;
@@ -31,8 +30,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void quaternion_t
 }
 
 /// Unit quaternions to frames.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void frame_test(global const float* quaternions,
-                                                                               global float* frames, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void frame_test(global const float* quaternions, global float* frames, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Quaternion q;
@@ -43,9 +42,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void frame_test(g
 }
 
 /// Half-way rotations between boxes.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void blend_test(global const float* first,
-                                                                               global const float* second,
-                                                                               global float* blended, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void blend_test(global const float* first, global const float* second, global float* blended, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Quaternion p, q, result;
@@ -56,8 +54,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void blend_test(g
 }
 
 /// Rotations of matrices given by columns; `rotations` holds where to start.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void extract_test(global const float* matrices,
-                                                                                 global float* rotations, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void extract_test(global const float* matrices, global float* rotations, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Frame matrix;

@@ -87,7 +87,8 @@ double form(const glm::dmat3& a, const glm::dvec4& v) {
     return glm::dot(r[0], a[0]) + glm::dot(r[1], a[1]) + glm::dot(r[2], a[2]);
 }
 
-/// All stationary values of trace(R^T A) and their rotations, the largest first (Horn 1987): no iteration over rotations.
+/// All stationary values of trace(R^T A) and their rotations, the largest first (Horn 1987): no iteration over
+/// rotations.
 Eigen<4> horn(const glm::dmat3& a) {
     std::array<std::array<double, 4>, 4> k;
     const auto unit = [](int i) {
@@ -228,13 +229,13 @@ TEST_CASE("rotation: of any matrix the rotation of largest trace, from any start
         const Eigen<4> best = horn(a);
         const glm::dvec4 v = glm::dvec4(q.x, q.y, q.z, q.w) / glm::length(q);
         const double size = largest_entry(a);
-        // A rotation off by a few roundoffs loses their square times the matrix; what counts is that no other stationary
-        // point is taken for the largest.
+        // A rotation off by a few roundoffs loses their square times the matrix; what counts is that no other
+        // stationary point is taken for the largest.
         const double missing = best.values[0] - form(a, v);
         worst_trace = std::max(worst_trace, size > 0 ? missing / size : 0);
         CHECK(missing <= 64 * 0x1p-24 * size);
-        // Where the best is well apart from the rest, the rotation is determined to roundoff times the condition: twice the
-        // gap in trace is the curvature.
+        // Where the best is well apart from the rest, the rotation is determined to roundoff times the condition: twice
+        // the gap in trace is the curvature.
         const double gap = (best.values[0] - best.values[1]) / 4;
         if (gap < 1e-3 * size || size == 0) continue;
         const auto& e = best.vectors[0];

@@ -88,8 +88,8 @@ double true_exit(const Ray& ray) {
     return time;
 }
 
-/// Rays from points inside, on sides, edges and corners, outside and a little outside; along the area, back, along its sides, and
-/// anywhere; of all lengths.
+/// Rays from points inside, on sides, edges and corners, outside and a little outside; along the area, back, along its
+/// sides, and anywhere; of all lengths.
 std::vector<Ray> random_rays(std::size_t count) {
     Random random(95);
     std::vector<Ray> rays;
@@ -125,7 +125,7 @@ std::vector<Ray> random_rays(std::size_t count) {
 
 } // namespace
 
-TEST_CASE("a ray is in the region of an area up to its exit, and not much shorter than that") {
+TEST_CASE("area_rays: a ray is in the region of an area up to its exit, and not much shorter than that") {
     const std::vector<Ray> rays = random_rays(small_sizes() ? 100 : 40000);
     const Answers found = ask(rays);
     std::size_t inside = 0, outside = 0, close = 0;
@@ -166,7 +166,7 @@ TEST_CASE("a ray is in the region of an area up to its exit, and not much shorte
     }
 }
 
-TEST_CASE("directions that are affine to an area: along its lines either way, within the tolerance") {
+TEST_CASE("area_rays: directions that are affine to an area: along its lines either way, within the tolerance") {
     Random random(96);
     std::vector<Ray> rays;
     std::vector<int> expected; // 1: affine, 0: not

@@ -35,8 +35,8 @@ std::vector<std::uint32_t> listed(const std::vector<Triangle3>& triangles, const
                                            upload(device, indices, "triangles"), area));
 }
 
-/// Whether the triangle reaches into the region, each of whose sides is moved outwards by `margin` times the sum of its normal's
-/// magnitudes in the area's coordinates.
+/// Whether the triangle reaches into the region, each of whose sides is moved outwards by `margin` times the sum of its
+/// normal's magnitudes in the area's coordinates.
 bool reaches(const Triangle3& triangle, const InfluenceRecord& area, double margin) {
     const double w = area.half_width, h = area.half_height;
     std::vector<glm::dvec3> polygon;
@@ -77,8 +77,8 @@ double margin_of(const Triangle3& triangle, const InfluenceRecord& area) {
     return 0x1p-16 * (size + area.far + (area.point != 0 ? area.far * sides : sides)) * spread * spread;
 }
 
-/// Triangles of all sizes in and about a region: also slivers, lines and points, large ones that cross it with no corner or edge
-/// inside, and some that touch its sides, edges or corners from outside.
+/// Triangles of all sizes in and about a region: also slivers, lines and points, large ones that cross it with no
+/// corner or edge inside, and some that touch its sides, edges or corners from outside.
 std::vector<Triangle3> random_triangles(Random& random, const InfluenceRecord& area, double scale, int count) {
     const std::array<glm::dvec3, 8> points = corners(area);
     glm::dvec3 middle(0);
@@ -115,7 +115,7 @@ std::vector<Triangle3> random_triangles(Random& random, const InfluenceRecord& a
 
 } // namespace
 
-TEST_CASE("the triangles of an area are those that reach into its region, and none far outside") {
+TEST_CASE("area_triangles: the triangles of an area are those that reach into its region, and none far outside") {
     Random random(97);
     std::size_t in = 0, out = 0, between = 0;
     for (int a = 0; a < (small_sizes() ? 4 : 100); ++a) {
@@ -143,7 +143,7 @@ TEST_CASE("the triangles of an area are those that reach into its region, and no
     }
 }
 
-TEST_CASE("triangles that touch a region are listed, whatever touches what") {
+TEST_CASE("area_triangles: triangles that touch a region are listed, whatever touches what") {
     const InfluenceRecord plane = make_area(false, {0, 0, 0}, {0, 0, -1}, 1, 1, 0, 2);
     const InfluenceRecord point = make_area(true, {0, 0, 0}, {0, 0, -1}, 1, 1, 1, 2);
     const std::vector<Triangle3> touching{
@@ -170,7 +170,7 @@ TEST_CASE("triangles that touch a region are listed, whatever touches what") {
     CHECK(listed({}, plane).empty());
 }
 
-TEST_CASE("rays inside a region hit no triangle that its list lacks") {
+TEST_CASE("area_triangles: rays inside a region hit no triangle that its list lacks") {
     Random random(98);
     Device& device = test_device();
     std::size_t hits = 0;

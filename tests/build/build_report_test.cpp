@@ -73,7 +73,7 @@ constexpr double tolerance = 1e-5; // sums of a few hundred floats, pairwise
 
 } // namespace
 
-TEST_CASE("build report: metrics of one level equal sums in double") {
+TEST_CASE("build_report: metrics of one level equal sums in double") {
     const Scene scene = scene_of({random_mesh(999, 1.0f, 0.2f, 5)});
     BuildReport report;
     const TreeImage image =
@@ -94,7 +94,7 @@ TEST_CASE("build report: metrics of one level equal sums in double") {
     CHECK(wide.max_depth == tree.max_depth());
 }
 
-TEST_CASE("build report: metrics of two levels equal sums in double") {
+TEST_CASE("build_report: metrics of two levels equal sums in double") {
     const Scene scene = two_level_scene(10.0f);
     BuildReport report;
     const TreeImage image =
@@ -119,7 +119,7 @@ TEST_CASE("build report: metrics of two levels equal sums in double") {
     CHECK(report.nodes == image.binary_nodes.size() + image.binary_top.size());
 }
 
-TEST_CASE("build report: every stage has its time, memory is counted") {
+TEST_CASE("build_report: every stage has its time, memory is counted") {
     BuildReport report;
     const Tree tree = build(test_device(), two_level_scene(3.0f), {}, &report);
     REQUIRE(tree.levels() == Levels::two);
@@ -138,7 +138,7 @@ TEST_CASE("build report: every stage has its time, memory is counted") {
     CHECK(report.peak_device_bytes >= test_device().held_bytes());
 }
 
-TEST_CASE("build report: memory is that of this build alone") {
+TEST_CASE("build_report: memory is that of this build alone") {
     Device& device = test_device();
     BuildReport large, small;
     build(device, scene_of({random_mesh(small_sizes() ? 2000 : 20000, 1.0f, 0.01f, 6)}), {}, &large);
@@ -147,7 +147,7 @@ TEST_CASE("build report: memory is that of this build alone") {
     CHECK(small.peak_device_bytes < large.peak_device_bytes / 2);
 }
 
-TEST_CASE("build report: memory does not depend on the number of threads") {
+TEST_CASE("build_report: memory does not depend on the number of threads") {
     if (small_sizes()) return; // nothing that other builds do not launch
     const Scene single = scene_of({random_mesh(20000, 1.0f, 0.01f, 6)});
     InfluenceArea area;
@@ -174,13 +174,13 @@ TEST_CASE("build report: memory does not depend on the number of threads") {
     }
 }
 
-TEST_CASE("build report: memory of a top-down builder does not depend on threads from 32,768 primitives for each") {
+TEST_CASE("build_report: memory of a top-down builder does not depend on threads from 32,768 primitives for each") {
     if (small_sizes()) return;
     const Scene scene = scene_of({random_mesh(2 * 32768, 1.0f, 0.01f, 8)});
     check_memory_by_compute_units([&] { build(test_device(), scene, {.builder = Builder::sah}); }, 2);
 }
 
-TEST_CASE("build: what cannot fit is refused before any work, with both numbers") {
+TEST_CASE("build_report: what cannot fit is refused before any work, with both numbers") {
     Device& device = test_device();
     // 2^17 triangles placed 2^14 times, in one level: 2^31 primitives.
     Scene scene = scene_of({random_mesh(1, 1, 1, 1)});
@@ -201,7 +201,7 @@ TEST_CASE("build: what cannot fit is refused before any work, with both numbers"
     CHECK(device.held_bytes() == held);
 }
 
-TEST_CASE("capacity: the largest buffer is a limit, for every layout") {
+TEST_CASE("build_report: capacity: the largest buffer is a limit, for every layout") {
     Device& device = test_device();
     const std::uint64_t largest = device.info().largest_buffer_bytes;
     for (const auto& volume : volumes) {
@@ -227,7 +227,7 @@ TEST_CASE("capacity: the largest buffer is a limit, for every layout") {
     }
 }
 
-TEST_CASE("capacity: what the device holds already is not available") {
+TEST_CASE("build_report: capacity: what the device holds already is not available") {
     if (small_sizes()) return; // Oclgrind takes pages for buffers that are never touched
     Device device(std::to_string(test_device().info().index));
     const std::uint64_t largest = device.info().largest_buffer_bytes, memory = device.info().global_bytes;

@@ -108,7 +108,7 @@ struct Reference {
 
 } // namespace
 
-TEST_CASE("a subtree is one leaf where that costs less") {
+TEST_CASE("costed_leaves: a subtree is one leaf where that costs less") {
     Device& device = test_device();
     const std::uint32_t large = small_sizes() ? 60 : 900;
     const BuiltTrees built =
@@ -136,14 +136,14 @@ TEST_CASE("a subtree is one leaf where that costs less") {
     }
 }
 
-TEST_CASE("no trees have no leaves") {
+TEST_CASE("costed_leaves: no trees have no leaves") {
     Device& device = test_device();
     Topology none;
     none.offsets = upload(device, std::vector{0u}, "offsets");
     CHECK(costed_leaves(device, none, {}, {}, {}, upload(device, std::vector{0u}, "starts")).size() == 0);
 }
 
-TEST_CASE("no other choice of leaves costs less") {
+TEST_CASE("costed_leaves: no other choice of leaves costs less") {
     // 16 triangles: up to some hundred choices for a tree in balance; in crowds, so that leaves of all sizes are best.
     Device& device = test_device();
     int several = 0;

@@ -69,8 +69,8 @@ HostTopology run(const Input& input) {
     Device& device = test_device();
     const std::vector<Key> keys(input.keys.begin(), input.keys.end());
     const Buffer<Key> buffer = upload(device, keys, "keys");
-    return to_host(device, lbvh<Key>(device, buffer, input.format, upload(device, identity(keys.size()), "order"),
-                                     upload(device, input.offsets, "offsets")));
+    return to_host(device, lbvh(device, buffer, input.format, upload(device, identity(keys.size()), "order"),
+                                upload(device, input.offsets, "offsets")));
 }
 
 /// Node by node against the builder from the top, and by the promises one by one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Codes within long runs of equal codes, against codes in double precision. All centres are multiples of powers of two in
-// cubes whose sides are powers of two, so that every code is exact in float too.
+// Codes within long runs of equal codes, against codes in double precision. All centres are multiples of powers of two
+// in cubes whose sides are powers of two, so that every code is exact in float too.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -153,9 +153,9 @@ HostTopology run(const Boxes& b, KeyFormat format, bool* untouched = nullptr) {
     const std::vector<Aabb> unit(b.offsets.size() - 1, {{0, 0, 0}, {1, 1, 1}});
     Guarded<Key> keys(device, b.boxes.size());
     Guarded<std::uint32_t> guarded(device, b.boxes.size());
-    morton_keys<Key>(device, boxes, offsets, upload(device, unit, "bounds"), format, keys.view(), guarded.view());
-    radix_sort<Key>(device, keys.view(), guarded.view(), 0, format.key_bits);
-    const Buffer<Gap> gaps = key_gaps<Key>(device, keys.view(), format, unit.size());
+    morton_keys(device, boxes, offsets, upload(device, unit, "bounds"), format, keys.view(), guarded.view());
+    radix_sort(device, keys.view(), guarded.view(), 0, format.key_bits);
+    Buffer<Gap> gaps = key_gaps<Key>(device, keys.view(), format, unit.size());
     const std::vector<std::uint32_t> order_before = guarded.values();
     const std::vector<Gap> gaps_before = download(device, gaps);
     partition_long_runs<Key>(device, boxes, keys.view(), format, offsets, guarded.view(), gaps);
@@ -172,7 +172,7 @@ Boxes one_tree(Boxes b, std::size_t tree) {
 
 } // namespace
 
-TEST_CASE("morton runs: codes of their own, in every tree of a forest, at every tuning") {
+TEST_CASE("morton_runs: codes of their own, in every tree of a forest, at every tuning") {
     Random random(1);
     const Boxes forest = clustered(random, small_sizes() ? 1 : 10);
     std::vector<Tuning> cuts = tunings();
@@ -191,7 +191,7 @@ TEST_CASE("morton runs: codes of their own, in every tree of a forest, at every 
     }
 }
 
-TEST_CASE("morton runs: each tree by itself, with short keys") {
+TEST_CASE("morton_runs: each tree by itself, with short keys") {
     Random random(2);
     const Boxes forest = clustered(random, small_sizes() ? 1 : 10);
     const KeyFormat format = key_format(MortonBits::bits30, 1);
@@ -202,7 +202,7 @@ TEST_CASE("morton runs: each tree by itself, with short keys") {
     }
 }
 
-TEST_CASE("morton runs: order and gaps are left alone where no run is long, or nothing parts it") {
+TEST_CASE("morton_runs: order and gaps are left alone where no run is long, or nothing parts it") {
     const KeyFormat format = key_format(MortonBits::bits30, 1);
     const std::uint32_t few[] = {0, 1, 2, long_run - 1, long_run, 4 * long_run};
     for (const std::uint32_t count : few) {
@@ -223,7 +223,7 @@ TEST_CASE("morton runs: order and gaps are left alone where no run is long, or n
     }
 }
 
-TEST_CASE("morton runs: denormal centres end") {
+TEST_CASE("morton_runs: denormal centres end") {
     // Their halves round, so that codes may not part what differs.
     Boxes b;
     for (std::uint32_t i = 0; i < 40; ++i) b.add(glm::dvec3(0x1p-149 * (3 + i % 2), 0x1p-149 * (i % 5), 0.0));

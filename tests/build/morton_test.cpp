@@ -43,8 +43,8 @@ Keys run(const std::vector<Aabb>& boxes, const std::vector<std::uint32_t>& offse
     Device& device = test_device();
     Guarded<Key> keys(device, boxes.size());
     Guarded<std::uint32_t> order(device, boxes.size());
-    morton_keys<Key>(device, upload(device, boxes, "boxes"), upload(device, offsets, "offsets"),
-                     upload(device, bounds, "bounds"), format, keys.view(), order.view());
+    morton_keys(device, upload(device, boxes, "boxes"), upload(device, offsets, "offsets"),
+                upload(device, bounds, "bounds"), format, keys.view(), order.view());
     CHECK(keys.intact());
     CHECK(order.intact());
     const std::vector<Key> values = keys.values();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The strategies for influence areas: no plane that a node could have been split by is better, by chances in double precision.
+// The strategies for influence areas: no plane that a node could have been split by is better, by chances in double
+// precision.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -28,7 +28,7 @@ double cost_of(const Scene& scene, Layout layout, Builder builder) {
 
 } // namespace
 
-TEST_CASE("topdown builds: the surface area heuristic costs less than Morton order, on every kind of scene") {
+TEST_CASE("topdown_build: the surface area heuristic costs less than Morton order, on every kind of scene") {
     for (const ProceduralKind& kind : procedural_kinds()) {
         CAPTURE(kind.name);
         const std::uint64_t triangles = small_sizes() ? 100 : 5000, instances = small_sizes() ? 9 : 100;
@@ -40,7 +40,7 @@ TEST_CASE("topdown builds: the surface area heuristic costs less than Morton ord
     }
 }
 
-TEST_CASE("topdown builds: updates build anew by the same builder") {
+TEST_CASE("topdown_build: updates build anew by the same builder") {
     const Scene scene = make_procedural("forest", {.triangles = 300, .instances = 20});
     for (const Builder builder : {Builder::sah, Builder::midpoint}) {
         const BuildOptions options{.levels = Levels::two, .builder = builder};
@@ -55,7 +55,7 @@ TEST_CASE("topdown builds: updates build anew by the same builder") {
     }
 }
 
-TEST_CASE("topdown builds: scenes of other sizes use the same programs") {
+TEST_CASE("topdown_build: scenes of other sizes use the same programs") {
     if (small_sizes()) return; // too few triangles for other chunks
     const auto build_of = [](std::uint64_t triangles) {
         const Scene scene = make_procedural("terrain", {.triangles = triangles});
@@ -67,7 +67,7 @@ TEST_CASE("topdown builds: scenes of other sizes use the same programs") {
     CHECK(build_of(20'000) == compiled);
 }
 
-TEST_CASE("topdown builds: what the check of capacity counts on is what is taken") {
+TEST_CASE("topdown_build: what the check of capacity counts on is what is taken") {
     if (small_sizes()) return; // no use for memory of a simulator
     for (const Tuning& tuning : {test_device().tuning(), Tuning{64, 4096, 1, 8}}) {
         const TuningScope scope(tuning);
@@ -115,7 +115,7 @@ std::uint64_t most_accepted(Builder builder, bool instances) {
 
 } // namespace
 
-TEST_CASE("topdown builds: refused before the work when splitting nodes does not fit, of either level") {
+TEST_CASE("topdown_build: refused before the work when splitting nodes does not fit, of either level") {
     Device& device = test_device();
     device.trim();
     const std::uint64_t available = device.info().global_bytes - device.held_bytes();

@@ -13,7 +13,7 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("build");
 
-TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted without an absolute size") {
+TEST_CASE("topdown_extremes: equal, degenerate and huge boxes are halved or parted without an absolute size") {
     for (const float place : {0.0f, 1.0f, -1e18f, 1e-38f}) {
         CAPTURE(place);
         const Boxes forest{std::vector<Aabb>(100, {{place, place, place}, {place, place, place}}), {0, 100}, {}};
@@ -33,7 +33,7 @@ TEST_CASE("topdown: equal, degenerate and huge boxes are halved or parted withou
     check(mixed, quality_options(1), quality_rules());
 }
 
-TEST_CASE("topdown: scaling by powers of two changes nothing") {
+TEST_CASE("topdown_extremes: scaling by powers of two changes nothing") {
     const Boxes forest = random_boxes({many() / 2, 65}, Spread::sizes, 29);
     TopDownOptions paper;
     paper.bin_box = true;
@@ -48,7 +48,7 @@ TEST_CASE("topdown: scaling by powers of two changes nothing") {
     }
 }
 
-TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
+TEST_CASE("topdown_extremes: the deepest tree ends at max_levels and below it halves") {
     // Every box twice as far and as large as the one before: planes part off a few each time.
     Boxes forest;
     for (int i = 0; i < 120; ++i) {
@@ -79,7 +79,7 @@ TEST_CASE("topdown: the deepest tree ends at max_levels and below it halves") {
     }
 }
 
-TEST_CASE("topdown: centres far outside the node's box go to the bins at its ends") {
+TEST_CASE("topdown_extremes: centres far outside the node's box go to the bins at its ends") {
     Boxes forest = random_boxes({many() / 4}, Spread::cube, 37);
     Random random(38);
     for (std::size_t i = 0; i < 3 * forest.boxes.size(); ++i)
@@ -89,7 +89,7 @@ TEST_CASE("topdown: centres far outside the node's box go to the bins at its end
     check(forest, options, quality_rules());
 }
 
-TEST_CASE("topdown: large nodes in slices so long that the next would begin beyond 2^32") {
+TEST_CASE("topdown_extremes: large nodes in slices so long that the next would begin beyond 2^32") {
     if (small_sizes()) return;
     const TuningScope scope({4, 16, 1u << 31, 16}); // nodes of more than 4096 primitives are large
     check(random_boxes({9000}, Spread::cube, 41), quality_options(1), quality_rules());

@@ -5,6 +5,7 @@
 
 #include "boxwood/error.hpp"
 #include "boxwood/topdown.hpp"
+#include "build/builder.hpp"
 #include "build/topdown_boxes.hpp"
 #include "build/trees.hpp"
 #include "tuning.hpp"

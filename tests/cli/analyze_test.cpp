@@ -18,15 +18,17 @@ namespace {
 
 /// Looks along -z at everything within 4 of the axis, and more than procedural scenes need behind.
 constexpr const char* one_area =
-    R"([{"kind": "plane", "point": [0, 0, 50], "direction": [0, 0, -1], "half_width": 4, "half_height": 4, "length": 100}])";
+    R"([{"kind": "plane", "point": [0, 0, 50], "direction": [0, 0, -1], "half_width": 4, "half_height": 4,)"
+    R"( "length": 100}])";
 
-/// A plane and a point area, whose rays begin within the unit cube of a random scene, and between them one beside everything.
+/// A plane and a point area, whose rays begin within the unit cube of a random scene, and between them one beside
+/// everything.
 constexpr const char* three_areas = R"([
- {"kind": "plane", "point": [0.5, 0.5, 50], "direction": [0, 0, -1], "half_width": 0.3, "half_height": 0.3, "length": 100,
-  "share": 0.5},
+ {"kind": "plane", "point": [0.5, 0.5, 50], "direction": [0, 0, -1], "half_width": 0.3, "half_height": 0.3,
+  "length": 100, "share": 0.5},
  {"kind": "plane", "point": [900, 0, 50], "direction": [0, 0, -1], "half_width": 1, "half_height": 1, "length": 100},
- {"kind": "point", "eye": [0.5, 0.5, 2], "direction": [0, 0, -1], "fov_x_degrees": 30, "fov_y_degrees": 20, "near": 1.25,
-  "far": 100}])";
+ {"kind": "point", "eye": [0.5, 0.5, 2], "direction": [0, 0, -1], "fov_x_degrees": 30, "fov_y_degrees": 20,
+  "near": 1.25, "far": 100}])";
 
 /// Of the last table: rows of how many triangles a leaf has, and how many leaves do.
 int triangles_of_leaves(const std::string& out) {

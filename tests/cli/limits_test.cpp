@@ -19,7 +19,7 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("cli");
 
-TEST_CASE("cli: a folder for compiled kernels that cannot be written is named") {
+TEST_CASE("limits: a folder for compiled kernels that cannot be written is named") {
     const Tool tool;
     tool.succeed("scene sphere -o sphere.glb");
     // Below a file, where not even root can make a folder: PoCL then has no device.
@@ -33,7 +33,7 @@ TEST_CASE("cli: a folder for compiled kernels that cannot be written is named") 
                   "/proc/self, cannot be written: ");
 }
 
-TEST_CASE("cli: more threads than CPUs, and CPUs that the process may not run on") {
+TEST_CASE("limits: more threads than CPUs, and CPUs that the process may not run on") {
     const Tool tool;
     CHECK(tool.run("devices", "unset POCL_AFFINITY; export POCL_MAX_PTHREAD_COUNT=70;").code == 0);
     CHECK(tool.run("devices", "unset POCL_AFFINITY; export POCL_MAX_PTHREAD_COUNT=1;").code == 0);
@@ -41,7 +41,7 @@ TEST_CASE("cli: more threads than CPUs, and CPUs that the process may not run on
 }
 
 #ifndef SANITIZED_ADDRESSES
-TEST_CASE("cli: a limited address space is the memory of a CPU device") {
+TEST_CASE("limits: a limited address space is the memory of a CPU device") {
     const Tool tool;
     tool.succeed("scene random --triangles 1000000 -o random.glb");
     tool.succeed("build random.glb -o x.bxw"); // compiles

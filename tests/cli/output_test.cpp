@@ -21,7 +21,7 @@ void make_forest(const Tool& tool) {
 
 } // namespace
 
-TEST_CASE("cli: what is printed and does not arrive is an error, for every command") {
+TEST_CASE("output: what is printed and does not arrive is an error, for every command") {
     const Tool tool;
     make_forest(tool);
     for (const std::string command :
@@ -36,7 +36,8 @@ TEST_CASE("cli: what is printed and does not arrive is an error, for every comma
     }
 }
 
-TEST_CASE("cli: closed standard descriptors are no fault where nothing is printed, and no file gets what is printed") {
+TEST_CASE(
+    "output: closed standard descriptors are no fault where nothing is printed, and no file gets what is printed") {
     const Tool tool;
     make_forest(tool);
     const std::string forest = tool.contents("forest.bxw");
@@ -50,7 +51,7 @@ TEST_CASE("cli: closed standard descriptors are no fault where nothing is printe
     check_failure(tool.run("info >&-"), 2, "--help");
 }
 
-TEST_CASE("cli: a temporary that a killed run left is removed by the next one") {
+TEST_CASE("output: a temporary that a killed run left is removed by the next one") {
     const Tool tool;
     const std::string scene = "scene random --triangles 100000 -o x.glb";
     CHECK(tool.run(scene, "ulimit -c 0; ulimit -f 1000;").code > 128);

@@ -139,7 +139,7 @@ TEST_CASE("quality: an empty scene, and wrong usage") {
     CHECK(tool.run("quality empty.gltf --report nowhere/q.json").code == 1);
 }
 
-TEST_CASE("info: the boxes of a tree as lines, from a scene and from its .bxw file") {
+TEST_CASE("quality: info: the boxes of a tree as lines, from a scene and from its .bxw file") {
     const Tool tool;
     tool.succeed("scene forest --instances 20 -o forest.glb");
     tool.succeed("build forest.glb -o forest.bxw --layout binary");

@@ -15,14 +15,14 @@ namespace {
 // Small: what is tested is not the light. Many samples: it must not end before it is ended.
 const std::string picture = "render room.glb -o x.exr --resolution 12x8 --spp 400 --depth 2 --quiet --checkpoint 0 ";
 
-/// Shell code that runs `command` once the first checkpoint of the tool, which takes the shell's place, is there; given up after a
-/// while.
+/// Shell code that runs `command` once the first checkpoint of the tool, which takes the shell's place, is there; given
+/// up after a while.
 std::string after_checkpoint(const std::string& command) {
     return "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; " + command + ") &";
 }
 
-/// A linker that sends Ctrl-C's signal to whoever called it and to itself when it links `kernel`, once, and goes on where it survives
-/// that. (dash, the usual sh, would let signals through that its caller blocks.)
+/// A linker that sends Ctrl-C's signal to whoever called it and to itself when it links `kernel`, once, and goes on
+/// where it survives that. (dash, the usual sh, would let signals through that its caller blocks.)
 std::string linker(const std::string& kernel) {
     return R"(#!/bin/bash
 for word; do
@@ -47,7 +47,7 @@ std::string unbroken(const Tool& tool) {
 
 } // namespace
 
-TEST_CASE("render tool: a terminal that is gone ends a render as SIGTERM does, but not under nohup") {
+TEST_CASE("render_end: a terminal that is gone ends a render as SIGTERM does, but not under nohup") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     check_failure(tool.run(picture, after_checkpoint("kill -HUP $$")), 130, "--resume");
@@ -58,7 +58,7 @@ TEST_CASE("render tool: a terminal that is gone ends a render as SIGTERM does, b
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: a picture that cannot be written in the end leaves its samples to --resume") {
+TEST_CASE("render_end: a picture that cannot be written in the end leaves its samples to --resume") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     check_failure(tool.run(picture, after_checkpoint("mkdir x.exr")), 1,
@@ -71,7 +71,7 @@ TEST_CASE("render tool: a picture that cannot be written in the end leaves its s
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: where a disk is full in the end, the last checkpoint stays and is named") {
+TEST_CASE("render_end: where a disk is full in the end, the last checkpoint stays and is named") {
     const Tool tool;
     const std::string whole = unbroken(tool);
     // A limit on the size of files stands for the disk.
@@ -86,7 +86,7 @@ TEST_CASE("render tool: where a disk is full in the end, the last checkpoint sta
     CHECK(tool.contents("x.exr") == whole);
 }
 
-TEST_CASE("render tool: Ctrl-C while PoCL links a kernel is code 130") {
+TEST_CASE("render_end: Ctrl-C while PoCL links a kernel is code 130") {
     // Ctrl-C reaches every process of the terminal, the linker too. PATH has one that sends it before the system's.
     for (const std::string kernel : {"radix_count", "film_add"}) { // while a tree is built, and in the first sample
         CAPTURE(kernel);

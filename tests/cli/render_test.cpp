@@ -26,7 +26,8 @@ void make_scenes(const Tool& tool) {
     tool.succeed("scene forest --instances 20 -o forest.glb");
 }
 
-/// Shell code that ends the tool, which takes the shell's place, once its first checkpoint is there; given up after a while.
+/// Shell code that ends the tool, which takes the shell's place, once its first checkpoint is there; given up after a
+/// while.
 const std::string end_after_checkpoint =
     "(for i in $(seq 3000); do [ -e x.exr.resume ] && break; sleep 0.02; done; kill -TERM $$) &";
 
@@ -36,7 +37,7 @@ const std::string picture =
 
 } // namespace
 
-TEST_CASE("render tool: options of light that are wrong are code 2 and say what is right") {
+TEST_CASE("render: options of light that are wrong are code 2 and say what is right") {
     const Tool tool;
     make_scenes(tool);
     const std::string render = "render room.glb -o x.exr ";
@@ -75,7 +76,7 @@ TEST_CASE("render tool: options of light that are wrong are code 2 and say what 
     CHECK(tool.files() == Names{"forest.glb", "room.glb"});
 }
 
-TEST_CASE("render tool: two files that are one are refused before any work") {
+TEST_CASE("render: two files that are one are refused before any work") {
     const Tool tool;
     make_scenes(tool);
     const std::string room = tool.contents("room.glb");
@@ -100,7 +101,7 @@ TEST_CASE("render tool: two files that are one are refused before any work") {
     tool.succeed(render + "-o x.exr --environment sky --report sky"); // a word is no file
 }
 
-TEST_CASE("render tool: every integrator makes its picture, the same bytes each time, and names no folder") {
+TEST_CASE("render: every integrator makes its picture, the same bytes each time, and names no folder") {
     const Tool tool;
     make_scenes(tool);
     for (const std::string integrator : {"path", "direct", "ambient", "ao", "normals", "cost"}) {
@@ -122,7 +123,7 @@ TEST_CASE("render tool: every integrator makes its picture, the same bytes each 
     }
 }
 
-TEST_CASE("render tool: the sky lights a scene only when nothing else does, and is named in the summary") {
+TEST_CASE("render: the sky lights a scene only when nothing else does, and is named in the summary") {
     const Tool tool;
     tool.succeed("scene sphere -o sphere.glb");
     const std::string render = "render sphere.glb -o x.exr --resolution 16x16 --spp 2 ";
@@ -163,7 +164,7 @@ TEST_CASE("render tool: the sky lights a scene only when nothing else does, and 
     CHECK(Json::parse(tool.contents("x.json"))["options"]["environment"] == "light.exr");
 }
 
-TEST_CASE("render tool: a warning about the environment names it once, and costs take one sample of their own accord") {
+TEST_CASE("render: a warning about the environment names it once, and costs take one sample of their own accord") {
     const Tool tool;
     tool.succeed("scene sphere -o sphere.glb");
     std::vector<float> ones(8, 1.0f);
@@ -182,7 +183,7 @@ TEST_CASE("render tool: a warning about the environment names it once, and costs
     }
 }
 
-TEST_CASE("render tool: an eye and a target are a camera") {
+TEST_CASE("render: an eye and a target are a camera") {
     const Tool tool;
     tool.succeed("scene sphere -o sphere.glb");
     // One pixel, whose middle looks at the target: on the unit sphere, or past it.
@@ -202,7 +203,7 @@ TEST_CASE("render tool: an eye and a target are a camera") {
     }
 }
 
-TEST_CASE("render tool: exposure changes the preview alone") {
+TEST_CASE("render: exposure changes the preview alone") {
     const Tool tool;
     make_scenes(tool);
     const std::string render = "render forest.glb --resolution 16x16 --spp 1 ";
@@ -212,7 +213,7 @@ TEST_CASE("render tool: exposure changes the preview alone") {
     CHECK(tool.contents("a.png") != tool.contents("b.png"));
 }
 
-TEST_CASE("render tool: a render that is ended leaves picture and checkpoint, and goes on to the same bytes") {
+TEST_CASE("render: a render that is ended leaves picture and checkpoint, and goes on to the same bytes") {
     const Tool tool;
     make_scenes(tool);
     tool.succeed(picture);
@@ -233,7 +234,7 @@ TEST_CASE("render tool: a render that is ended leaves picture and checkpoint, an
     CHECK_FALSE(std::filesystem::exists(tool.file("x.exr.resume"))); // of no use any more
 }
 
-TEST_CASE("render tool: a signal that is ignored stays ignored, and the other one ends the render") {
+TEST_CASE("render: a signal that is ignored stays ignored, and the other one ends the render") {
     const Tool tool;
     make_scenes(tool);
     tool.succeed(picture);
@@ -247,7 +248,7 @@ TEST_CASE("render tool: a signal that is ignored stays ignored, and the other on
     check_failure(tool.run(picture + "--checkpoint 0", "trap '' TERM; " + wait + "-INT $$) &"), 130, "--resume");
 }
 
-TEST_CASE("render tool: a checkpoint that cannot be written costs no picture") {
+TEST_CASE("render: a checkpoint that cannot be written costs no picture") {
     const Tool tool;
     make_scenes(tool);
     tool.succeed(picture);
@@ -272,7 +273,7 @@ TEST_CASE("render tool: a checkpoint that cannot be written costs no picture") {
     CHECK(tool.files() == Names{"forest.glb", "room.glb", "x.exr", "x.exr.resume", "x.png"});
 }
 
-TEST_CASE("render tool: a checkpoint that another render left is warned of and kept") {
+TEST_CASE("render: a checkpoint that another render left is warned of and kept") {
     const Tool tool;
     make_scenes(tool);
     tool.write("x.exr.resume", "of another");
@@ -287,7 +288,7 @@ TEST_CASE("render tool: a checkpoint that another render left is warned of and k
     check_failure(tool.run("render none.glb -o x.exr --resume"), 3, "x.exr.resume");
 }
 
-TEST_CASE("render tool: a checkpoint that is damaged or of another render is refused, and kept") {
+TEST_CASE("render: a checkpoint that is damaged or of another render is refused, and kept") {
     const Tool tool;
     make_scenes(tool);
     tool.run(picture + "--checkpoint 0", end_after_checkpoint);

@@ -22,10 +22,10 @@ namespace {
 constexpr const char* three_areas = R"([
  {"scene": "Random100", "area": "plane", "orientation": "parallel", "kind": "plane", "point": [5, 5, -4],
   "direction": [0, 0, 1], "half_width": 5, "half_height": 5, "length": 20},
- {"scene": "Random100", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3], "direction": [1, 0, 1],
-  "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20},
- {"scene": "Atlantis", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3], "direction": [1, 0, 1],
-  "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20}])";
+ {"scene": "Random100", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3],
+  "direction": [1, 0, 1], "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20},
+ {"scene": "Atlantis", "area": "point", "orientation": "45", "kind": "point", "eye": [-3, 5, -3],
+  "direction": [1, 0, 1], "fov_x_degrees": 60, "fov_y_degrees": 90, "near": 1, "far": 20}])";
 
 constexpr const char* head =
     "scene,area,orientation,builder,estimated_pah_cost,estimated_sah_cost,real_cost_local,more,"
@@ -41,7 +41,7 @@ Json study(const Tool& tool, const std::string& arguments) {
 
 } // namespace
 
-TEST_CASE("study influence: every builder in every configuration, beside what was published") {
+TEST_CASE("study: every builder in every configuration, beside what was published") {
     const Tool tool;
     tool.write("areas.json", three_areas);
     tool.write("published.csv", std::string(head) + "Random100,plane,parallel,SAH+LSPH,21,19,20,x,0.4,0.5\r\n" +
@@ -92,7 +92,7 @@ TEST_CASE("study influence: every builder in every configuration, beside what wa
     CHECK(report["parameters"].size() == 5);
 }
 
-TEST_CASE("study influence: seeds decide the scene and the rays, and nothing else does") {
+TEST_CASE("study: seeds decide the scene and the rays, and nothing else does") {
     const Tool tool;
     tool.write("areas.json", three_areas);
     const Json first = study(tool, "--areas areas.json --scenes . --rays 200 --seed 3");
@@ -115,7 +115,7 @@ TEST_CASE("study influence: seeds decide the scene and the rays, and nothing els
     CHECK(std::abs(cost("3") - one) > 3e-4 * one);
 }
 
-TEST_CASE("study influence: an area without triangles costs nothing") {
+TEST_CASE("study: an area without triangles costs nothing") {
     const Tool tool;
     tool.write("areas.json", R"([{"scene": "Random100", "orientation": "away", "kind": "plane", "point": [5, 5, -4],
         "direction": [0, 0, -1], "half_width": 5, "half_height": 5, "length": 20}])");
@@ -130,7 +130,7 @@ TEST_CASE("study influence: an area without triangles costs nothing") {
     CHECK(run.out.find("launches") != std::string::npos);
 }
 
-TEST_CASE("study influence: bad input is named by file and line") {
+TEST_CASE("study: bad input is named by file and line") {
     const Tool tool;
     tool.write("areas.json", three_areas);
     const std::string begin = "study influence --areas areas.json --scenes . --rays 10 --published ";
@@ -173,7 +173,7 @@ TEST_CASE("study influence: bad input is named by file and line") {
     CHECK(rays.err.find("see boxwood study influence --help") != std::string::npos);
 }
 
-TEST_CASE("study influence: on a scene of the paper the estimates hold, and the base costs what it cost there") {
+TEST_CASE("study: on a scene of the paper the estimates hold, and the base costs what it cost there") {
     if (scenes_folder().empty() || !std::filesystem::exists(scenes_folder() / "pah_MonkeyModel.glb")) {
         MESSAGE("skipped: pah_MonkeyModel.glb needs BOXWOOD_SCENES");
         return;

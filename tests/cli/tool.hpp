@@ -15,8 +15,8 @@ struct Run {
     std::string err;
 };
 
-/// Checks a failure as the tool promises it: this code, one line that starts with the tool's name and holds `word`, nothing on
-/// standard output.
+/// Checks a failure as the tool promises it: this code, one line that starts with the tool's name and holds `word`,
+/// nothing on standard output.
 void check_failure(const Run& run, int code, const std::string& word);
 
 /// A folder of its own for one test, removed in the end; commands run in it.

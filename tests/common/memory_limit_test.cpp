@@ -43,7 +43,7 @@ private:
 
 } // namespace
 
-TEST_CASE("memory limit: the least of the control groups around the process, version 2") {
+TEST_CASE("memory_limit: the least of the control groups around the process, version 2") {
     const Root root;
     CHECK(root.limit() == unlimited); // no files at all
     root.write("proc/self/cgroup", "0::/user/session");
@@ -65,7 +65,7 @@ TEST_CASE("memory limit: the least of the control groups around the process, ver
     CHECK(root.limit() == unlimited);
 }
 
-TEST_CASE("memory limit: that of the memory controller, version 1, also beside version 2") {
+TEST_CASE("memory_limit: that of the memory controller, version 1, also beside version 2") {
     const Root root;
     root.write("proc/self/cgroup",
                "5:cpu,cpuacct:/docker/a\n4:hugetlb,memory:/docker/a\n3:memory_of_others:/b\n0::/docker/a");
@@ -81,7 +81,7 @@ TEST_CASE("memory limit: that of the memory controller, version 1, also beside v
     CHECK(root.limit() == 800000000u);
 }
 
-TEST_CASE("memory limit: what limits of the process leave beside what it has") {
+TEST_CASE("memory_limit: what limits of the process leave beside what it has") {
     const Root root;
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     root.write("proc/self/statm", "1000 500 300 20 0 200 0");
@@ -110,7 +110,7 @@ TEST_CASE("memory limit: what limits of the process leave beside what it has") {
     CHECK(limit_with(RLIMIT_AS, many) == 0);
 }
 
-TEST_CASE("memory limit: a device may use what compilers and the host's arrays leave") {
+TEST_CASE("memory_limit: a device may use what compilers and the host's arrays leave") {
     constexpr std::uint64_t mebibyte = 1 << 20;
     CHECK(usable_by_device(0) == 0);
     CHECK(usable_by_device(256 * mebibyte) == 0);

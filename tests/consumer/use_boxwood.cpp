@@ -13,8 +13,8 @@ bool use_boxwood() {
     boxwood::Device device;
     const std::vector<std::uint32_t> numbers = {1, 2, 3, 4};
     const auto in = boxwood::upload(device, numbers, "numbers");
-    const auto sum = boxwood::make_buffer<std::uint32_t>(device, 1, "sum");
-    boxwood::reduce<std::uint32_t>(device, in, boxwood::Operator::sum, sum);
+    auto sum = boxwood::make_buffer<std::uint32_t>(device, 1, "sum");
+    boxwood::reduce(device, in, boxwood::Operator::sum, sum);
 
     const boxwood::Scene scene = boxwood::make_procedural("cornell");
     boxwood::BuildReport report;

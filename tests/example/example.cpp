@@ -15,7 +15,7 @@ int main() {
     const std::vector<boxwood::Ray> rays = {{{0, 0, 9}, 0, {0, 0, -1}, infinity}, //
                                             {{9, 9, 9}, 0, {0, 0, -1}, infinity}};
     const auto queries = boxwood::upload(device, rays, "rays");
-    const auto answers = boxwood::make_buffer<boxwood::Hit>(device, rays.size(), "hits");
+    auto answers = boxwood::make_buffer<boxwood::Hit>(device, rays.size(), "hits");
     boxwood::closest_hit(device, tree, queries, answers);
 
     const std::vector<boxwood::Hit> hits = boxwood::download(device, answers);

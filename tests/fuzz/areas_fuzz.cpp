@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever the bytes, a list of influence areas is read to records without a NaN, or refused. The first byte of an input
-// chooses: 255 is the rest as a file; below that, bytes of a small file are overwritten, three bytes of input each.
+// Whatever the bytes, a list of influence areas is read to records without a NaN, or refused. The first byte of an
+// input chooses: 255 is the rest as a file; below that, bytes of a small file are overwritten, three bytes of input
+// each.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +19,10 @@ namespace {
 constexpr std::uint8_t raw_file = 255;
 
 const std::string sample =
-    R"([{"kind": "plane", "point": [1, 2.5, -3], "direction": [0, -1e2, 0.5], "half_width": 2, "half_height": 1e-1, "length": 7},)"
-    R"( {"kind": "point", "eye": [0, 0, 0], "direction": [1, 0, 0], "fov_x_degrees": 60, "fov_y_degrees": 45.5, "near": 0.1,)"
-    R"( "far": 100, "tolerance_degrees": 0.25, "share": 0.5}])";
+    R"([{"kind": "plane", "point": [1, 2.5, -3], "direction": [0, -1e2, 0.5], "half_width": 2, "half_height": 1e-1,)"
+    R"( "length": 7},)"
+    R"( {"kind": "point", "eye": [0, 0, 0], "direction": [1, 0, 0], "fov_x_degrees": 60, "fov_y_degrees": 45.5,)"
+    R"( "near": 0.1, "far": 100, "tolerance_degrees": 0.25, "share": 0.5}])";
 
 std::string edited(std::span<const std::uint8_t> input) {
     std::string text = sample;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever the bytes, the reader returns a scene that keeps its promises or throws an InputError. The first byte of an input
-// chooses: 255 is the rest as a file, which tries container and JSON; below that, a sample file with everything in it is
-// edited, value by value, which tries what lies behind.
+// Whatever the bytes, the reader returns a scene that keeps its promises or throws an InputError. The first byte of an
+// input chooses: 255 is the rest as a file, which tries container and JSON; below that, a sample file with everything
+// in it is edited, value by value, which tries what lies behind.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever the bytes, a picture is decoded to the size that its head says, or refused by an InputError. The first byte of an
-// input chooses: 255 is the rest as a file; below that, bytes of a small file are overwritten, three bytes of input each: of a JPEG
-// file from 128 on, else of a PNG file.
+// Whatever the bytes, a picture is decoded to the size that its head says, or refused by an InputError. The first byte
+// of an input chooses: 255 is the rest as a file; below that, bytes of a small file are overwritten, three bytes of
+// input each: of a JPEG file from 128 on, else of a PNG file.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -92,7 +92,7 @@ Found find_on_device(const AreaIndex& index, const std::vector<LocalArea>& areas
 
 } // namespace
 
-TEST_CASE("area index: every kind finds the areas that hold a point, and no others") {
+TEST_CASE("area_index: every kind finds the areas that hold a point, and no others") {
     // 1: one cell; 32: as many as the test's bits.
     for (const std::uint32_t count : {1u, 3u, 32u}) {
         for (const double scale : {1.0, 1e-10, 1e10}) {
@@ -142,7 +142,7 @@ TEST_CASE("area index: every kind finds the areas that hold a point, and no othe
     }
 }
 
-TEST_CASE("area index: an octree stops at cells that areas enclose or do not meet, and at five levels") {
+TEST_CASE("area_index: an octree stops at cells that areas enclose or do not meet, and at five levels") {
     InfluenceArea area;
     area.direction = {0, 0, 1};
     area.half_width = area.half_height = 1.0;
@@ -158,7 +158,7 @@ TEST_CASE("area index: an octree stops at cells that areas enclose or do not mee
     CHECK(find_areas(index, std::vector{only}, {50.0f, 0.5f, 1.0f}).empty());
 }
 
-TEST_CASE("area index: words, no areas, and the choice by their number") {
+TEST_CASE("area_index: words, no areas, and the choice by their number") {
     for (const AreaIndexKind kind : all_kinds) CHECK(to_area_index(name(kind)) == kind);
     CHECK_THROWS_AS(to_area_index("grid"), InputError);
     CHECK(build_area_index({}, AreaIndexKind::automatic).nodes.empty());
@@ -168,9 +168,9 @@ TEST_CASE("area index: words, no areas, and the choice by their number") {
     CHECK(build_area_index(many, AreaIndexKind::automatic).kind == AreaIndexKind::kd);
 }
 
-TEST_CASE("area index: a point beside a region by less than coordinates can tell is found in every kind") {
-    // Floats are 2^-3 apart here. The octree's first split in x is the float that the first region misses by 2^-21, which is within
-    // the rounding of area_contains.
+TEST_CASE("area_index: a point beside a region by less than coordinates can tell is found in every kind") {
+    // Floats are 2^-3 apart here. The octree's first split in x is the float that the first region misses by 2^-21,
+    // which is within the rounding of area_contains.
     std::vector<InfluenceArea> areas(2);
     for (InfluenceArea& area : areas) area.direction = {0, 0, 1};
     areas[0].origin.x = 0x1p20;
@@ -189,7 +189,7 @@ TEST_CASE("area index: a point beside a region by less than coordinates can tell
     }
 }
 
-TEST_CASE("area index: as many areas as there can be, all over each other") {
+TEST_CASE("area_index: as many areas as there can be, all over each other") {
     // The same region again and again, a little larger each time: no plane parts them.
     const std::uint32_t count = small_sizes() ? 40 : most_areas;
     std::vector<InfluenceArea> areas(count);

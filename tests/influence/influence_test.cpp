@@ -33,8 +33,8 @@ std::vector<std::pair<glm::dvec3, double>> planes_of(const InfluenceRecord& area
             {w * forward - right, 0}, {h * forward + up, 0}, {h * forward - up, 0}};
 }
 
-/// Whether a part of the box is inside the region, moved outwards by `margin`: its faces are cut by the planes. A region inside
-/// the box shows by its corners.
+/// Whether a part of the box is inside the region, moved outwards by `margin`: its faces are cut by the planes. A
+/// region inside the box shows by its corners.
 bool meets(const InfluenceRecord& area, const Aabb& box, double margin) {
     for (const glm::dvec3& corner : corners(area)) {
         bool inside = true;
@@ -66,7 +66,7 @@ bool meets(const InfluenceRecord& area, const Aabb& box, double margin) {
 
 } // namespace
 
-TEST_CASE("records of influence areas: frames, shares and what is refused") {
+TEST_CASE("influence: records of influence areas: frames, shares and what is refused") {
     Random random(91);
     std::vector<InfluenceArea> areas(200);
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -134,7 +134,7 @@ TEST_CASE("records of influence areas: frames, shares and what is refused") {
     CHECK_THROWS_AS(influence_records(std::vector<InfluenceArea>(most_areas + 1)), CapacityError);
 }
 
-TEST_CASE("regions and boxes: contained, enclosed, met") {
+TEST_CASE("influence: regions and boxes: contained, enclosed, met") {
     Random random(92);
     int met = 0, missed = 0, enclosed = 0, unclear = 0;
     for (int i = 0; i < (small_sizes() ? 200 : 20000); ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("regions and boxes: contained, enclosed, met") {
     }
 }
 
-TEST_CASE("the box around a region is rounded outwards where the origin cancels its corners") {
+TEST_CASE("influence: the box around a region is rounded outwards where the origin cancels its corners") {
     using Vector = glm::vec<3, long double>;
     const auto wide = [](const float* v) { return Vector(v[0], v[1], v[2]); };
     Random random(94);
@@ -224,7 +224,7 @@ TEST_CASE("the box around a region is rounded outwards where the origin cancels 
     }
 }
 
-TEST_CASE("boxes that touch a region meet it, and those a float away do not") {
+TEST_CASE("influence: boxes that touch a region meet it, and those a float away do not") {
     // All numbers here are exact.
     const InfluenceRecord plane = make_area(false, {0, 0, 0}, {0, 0, -1}, 1, 2, 0, 4);
     const InfluenceRecord point = make_area(true, {0, 0, 0}, {0, 0, -1}, 1, 1, 1, 4);

@@ -50,7 +50,7 @@ glm::dvec3 vector(const float* v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 
-TEST_CASE("areas of lights: a directional light's holds the scene") {
+TEST_CASE("light_areas: a directional light's holds the scene") {
     Random random(101);
     for (int i = 0; i < 30; ++i) {
         const double scale = std::exp2(double(random.below(101)) - 50);
@@ -77,7 +77,7 @@ TEST_CASE("areas of lights: a directional light's holds the scene") {
     }
 }
 
-TEST_CASE("areas of lights: what a point or a spot light lights is in one of its areas") {
+TEST_CASE("light_areas: what a point or a spot light lights is in one of its areas") {
     Scene scene = two_tetrahedra();
     const auto covered = [&](const Light& lamp, bool all) {
         scene.lights = {lamp};
@@ -121,7 +121,7 @@ TEST_CASE("areas of lights: what a point or a spot light lights is in one of its
     CHECK(areas_from_lights(scene).size() == most_light_areas);
 }
 
-TEST_CASE("areas of lights: a flat lamp's lies over its rectangle, on the sides that emit") {
+TEST_CASE("light_areas: a flat lamp's lies over its rectangle, on the sides that emit") {
     Scene scene = two_tetrahedra();
     scene.materials.resize(2);
     scene.materials[1].emission = glm::vec3(3);

@@ -92,7 +92,7 @@ std::vector<Ray> random_segments(Random& random, std::size_t count, double scale
 
 } // namespace
 
-TEST_CASE("lines in one direction suggest the plane area that they come from") {
+TEST_CASE("line_areas: lines in one direction suggest the plane area that they come from") {
     Random random(111);
     for (int i = 0; i < 60; ++i) {
         const double scale = std::exp2(i % 3 == 0 ? double(random.below(101)) - 50 : 0);
@@ -119,7 +119,7 @@ TEST_CASE("lines in one direction suggest the plane area that they come from") {
     }
 }
 
-TEST_CASE("lines through one point suggest the point area that they come from") {
+TEST_CASE("line_areas: lines through one point suggest the point area that they come from") {
     Random random(112);
     for (int i = 0; i < 60; ++i) {
         const double scale = std::exp2(i % 3 == 0 ? double(random.below(101)) - 50 : 0);
@@ -149,7 +149,7 @@ TEST_CASE("lines through one point suggest the point area that they come from") 
     }
 }
 
-TEST_CASE("of lines of many kinds the directions that sixteen share suggest areas") {
+TEST_CASE("line_areas: of lines of many kinds the directions that sixteen share suggest areas") {
     Random random(113);
     const DoubleBox scene = cube(2);
     CHECK(areas_of_lines(lines_of(random_segments(random, 256, 2)), scene).empty());
@@ -191,7 +191,7 @@ TEST_CASE("of lines of many kinds the directions that sixteen share suggest area
     for (std::size_t i = 0; i < 2; ++i) CHECK(same(again[i].area, found[i].area));
 }
 
-TEST_CASE("lines that suggest nothing: too few, from a point to all sides, beyond coordinates") {
+TEST_CASE("line_areas: lines that suggest nothing: too few, from a point to all sides, beyond coordinates") {
     const DoubleBox scene = cube(2);
     InfluenceArea plane;
     const std::vector<Ray> parallel = rays_of(influence_records({&plane, 1})[0], 1, false);
@@ -231,7 +231,7 @@ TEST_CASE("lines that suggest nothing: too few, from a point to all sides, beyon
     }
 }
 
-TEST_CASE("lines end where rays hit or where their interval does; rays that hit nothing are none") {
+TEST_CASE("line_areas: lines end where rays hit or where their interval does; rays that hit nothing are none") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<Ray> rays{
         {{1, 2, 3}, 0, {0, 0, 2}, infinity}, // hits at 4

@@ -4,9 +4,9 @@
 #include "influence/distribution.h"
 
 /// probabilities[2 i + culled] of box i for areas[i].
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void probability_test(global const InfluenceRecord* areas,
-                                                                                global const Aabb* boxes,
-                                                                                global float* probabilities, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void probability_test(global const InfluenceRecord* areas, global const Aabb* boxes, global float* probabilities,
+                      uint count) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const InfluenceRecord area = areas[i];
@@ -16,9 +16,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void probability_
 }
 
 /// corners[8 i ..]: the table's outline of box i from an eye, ended by -1.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void table_test(global const float* eyes,
-                                                                               global const Aabb* boxes,
-                                                                               global int* corners, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void table_test(global const float* eyes, global const Aabb* boxes, global int* corners, uint count) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const float3 eye = vload3(i, eyes);
@@ -27,7 +26,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void table_test(g
     for (uint k = 0; k < 8; ++k) corners[8 * i + k] = k < entry >> 18 ? (int)((entry >> (3 * k)) & 7u) : -1;
 }
 
-/// measures[3 i ..] = surface, projected and expected measure of box i for all areas, their root and the isotropic share.
+/// measures[3 i ..] = surface, projected and expected measure of box i for all areas, their root and the isotropic
+/// share.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 void measure_test(global const InfluenceRecord* areas, global const Aabb* root, global const Aabb* boxes,
                   global float* measures, float isotropic, uint area_count, uint count) {
@@ -41,9 +41,9 @@ void measure_test(global const InfluenceRecord* areas, global const Aabb* root, 
 }
 
 /// directions[3 i ..] of areas[i] at points[3 i ..].
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void direction_test(global const InfluenceRecord* areas,
-                                                                                   global const float* points,
-                                                                                   global float* directions, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void direction_test(global const InfluenceRecord* areas, global const float* points, global float* directions,
+                    uint count) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const InfluenceRecord area = areas[i];

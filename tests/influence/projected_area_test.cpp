@@ -48,7 +48,8 @@ std::vector<float> probabilities(const std::vector<Case>& cases) {
                       upload(test_device(), areas_of(cases), "areas"), upload(test_device(), boxes_of(cases), "boxes"));
 }
 
-/// How far apart a probability and the reference may be (projected_area.h), and the references for depths a little to both sides.
+/// How far apart a probability and the reference may be (projected_area.h), and the references for depths a little to
+/// both sides.
 struct Allowed {
     double least[2], most[2];
     bool sum[2];   ///< The faces were summed: the error is relative.
@@ -95,7 +96,7 @@ Allowed allowed(const Case& c) {
 
 } // namespace
 
-TEST_CASE("the probability of a box is that of the hull of its corners, cut to the rectangle") {
+TEST_CASE("projected_area: the probability of a box is that of the hull of its corners, cut to the rectangle") {
     Random random(81);
     std::vector<Case> cases;
     const int count = small_sizes() ? 40 : 20000;
@@ -125,8 +126,9 @@ TEST_CASE("the probability of a box is that of the hull of its corners, cut to t
     }
 }
 
-TEST_CASE("the hull table has the outline of a box seen from anywhere") {
-    // The 26 positions about a box, some of them close to it and some far; the outline is a hull that brute force knows.
+TEST_CASE("projected_area: the hull table has the outline of a box seen from anywhere") {
+    // The 26 positions about a box, some of them close to it and some far; the outline is a hull that brute force
+    // knows.
     std::vector<float> eyes;
     std::vector<Aabb> boxes;
     for (const float away : {0.01f, 1.0f, 40.0f})
@@ -170,7 +172,7 @@ TEST_CASE("the hull table has the outline of a box seen from anywhere") {
     }
 }
 
-TEST_CASE("the probability of a box is the share of random rays from the rectangle that meet it") {
+TEST_CASE("projected_area: the probability of a box is the share of random rays from the rectangle that meet it") {
     Random random(83);
     const int count = small_sizes() ? 6 : 60, rays = small_sizes() ? 2000 : 20000;
     std::vector<Case> cases;
@@ -208,7 +210,7 @@ TEST_CASE("the probability of a box is the share of random rays from the rectang
     }
 }
 
-TEST_CASE("the measures add up the areas and the isotropic rays") {
+TEST_CASE("projected_area: the measures add up the areas and the isotropic rays") {
     Random random(85);
     const Aabb root = {{-3, -2, -4}, {3, 5, 4}};
     std::vector<InfluenceRecord> areas;
@@ -247,7 +249,8 @@ TEST_CASE("the measures add up the areas and the isotropic rays") {
     }
 }
 
-TEST_CASE("probabilities at the extremes are in range, and those of the same shape at any size are the same") {
+TEST_CASE("projected_area: probabilities at the extremes are in range, and those of the same shape at any size are the "
+          "same") {
     Random random(86);
     std::vector<Case> cases;
     const int count = small_sizes() ? 10 : 2000;
@@ -296,7 +299,7 @@ TEST_CASE("probabilities at the extremes are in range, and those of the same sha
     }
 }
 
-TEST_CASE("an area's own ray through a point") {
+TEST_CASE("projected_area: an area's own ray through a point") {
     Random random(87);
     std::vector<InfluenceRecord> areas;
     std::vector<float> points;

@@ -43,7 +43,7 @@ int in_child(Work&& work) {
 
 } // namespace
 
-TEST_CASE("a committed file has the bytes and leaves no temporary") {
+TEST_CASE("atomic_file: a committed file has the bytes and leaves no temporary") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     const std::string bytes("a\0b\r\n", 5);
@@ -55,7 +55,7 @@ TEST_CASE("a committed file has the bytes and leaves no temporary") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("an older file stays until commit and is then replaced") {
+TEST_CASE("atomic_file: an older file stays until commit and is then replaced") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     write_bytes(file, "old");
@@ -73,7 +73,7 @@ TEST_CASE("an older file stays until commit and is then replaced") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("two writers of one name do not disturb each other") {
+TEST_CASE("atomic_file: two writers of one name do not disturb each other") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     AtomicFile first(file);
@@ -86,7 +86,7 @@ TEST_CASE("two writers of one name do not disturb each other") {
     CHECK(read_bytes(file) == "second");
 }
 
-TEST_CASE("a name that cannot be written is refused at once, by its name") {
+TEST_CASE("atomic_file: a name that cannot be written is refused at once, by its name") {
     const TemporaryFolder folder;
     const auto refused = [](const std::filesystem::path& file) {
         try {
@@ -110,7 +110,7 @@ TEST_CASE("a name that cannot be written is refused at once, by its name") {
     }
 }
 
-TEST_CASE("a failed write shows at commit and leaves nothing") {
+TEST_CASE("atomic_file: a failed write shows at commit and leaves nothing") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     write_bytes(file, "old");
@@ -135,7 +135,7 @@ TEST_CASE("a failed write shows at commit and leaves nothing") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a process that dies while it writes leaves nothing under the final name") {
+TEST_CASE("atomic_file: a process that dies while it writes leaves nothing under the final name") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     const auto write_some = [&](auto&& die) {
@@ -153,7 +153,8 @@ TEST_CASE("a process that dies while it writes leaves nothing under the final na
     CHECK(folder.entries() == 1); // its own: that of the first is removed
 }
 
-TEST_CASE("temporaries of dead processes are removed by the next file of that name, and no other file is") {
+TEST_CASE(
+    "atomic_file: temporaries of dead processes are removed by the next file of that name, and no other file is") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "out.bin";
     // The process of a child that has ended: no other gets its number so soon.

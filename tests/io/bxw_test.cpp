@@ -63,14 +63,14 @@ constexpr std::size_t triangles_section = 2;
 constexpr std::size_t materials_section = 3;
 constexpr std::size_t normals_section = 4;
 constexpr std::size_t uvs_section = 6;
-constexpr std::size_t materials_section = 9;
+constexpr std::size_t looks_section = 9;
 constexpr std::size_t images_section = 10;
 constexpr std::size_t tree_section = 11;
 constexpr std::size_t binary_nodes_section = 12;
 
 } // namespace
 
-TEST_CASE("a .bxw file gives back scene and tree, bit for bit") {
+TEST_CASE("bxw: a .bxw file gives back scene and tree, bit for bit") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "sample.bxw";
     for (const Volumes& volumes : layouts) {
@@ -90,7 +90,7 @@ TEST_CASE("a .bxw file gives back scene and tree, bit for bit") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("an empty scene and its empty tree make a .bxw file") {
+TEST_CASE("bxw: an empty scene and its empty tree make a .bxw file") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "empty.bxw";
     for (const Levels levels : level_choices) {
@@ -102,7 +102,7 @@ TEST_CASE("an empty scene and its empty tree make a .bxw file") {
     }
 }
 
-TEST_CASE("a tree that does not fit the scene is not written") {
+TEST_CASE("bxw: a tree that does not fit the scene is not written") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "bad.bxw";
     const Scene scene = sample_scene();
@@ -112,7 +112,7 @@ TEST_CASE("a tree that does not fit the scene is not written") {
     CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("a .bxw file gives back every kind of index of areas, by its documented number") {
+TEST_CASE("bxw: a .bxw file gives back every kind of index of areas, by its documented number") {
     const Scene scene = sample_scene();
     TreeImage tree = tree_of(scene, layouts[0], Levels::one);
     std::uint32_t number = 0;
@@ -126,14 +126,15 @@ TEST_CASE("a .bxw file gives back every kind of index of areas, by its documente
     }
 }
 
-TEST_CASE("the file on disk has the documented layout") {
+TEST_CASE("bxw: the file on disk has the documented layout") {
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(bytes.substr(0, 8) == "\x89"
                                 "BXW\r\n\x1a\n");
     CHECK(bytes.substr(8, 4) == std::string("\x05\0\0\0", 4));  // version 5, little-endian
     CHECK(bytes.substr(12, 4) == std::string("\x19\0\0\0", 4)); // twenty-five sections
     CHECK(std::string(bytes.data() + 32) == "scene");
-    // 32 bytes of header and 25 entries of 48, then one section of no known size before the positions of 3 + 39 vertices.
+    // 32 bytes of header and 25 entries of 48, then one section of no known size before the positions of 3 + 39
+    // vertices.
     const auto table = table_of(bytes);
     CHECK(table[0].offset == 1232);
     CHECK(table[1].size == 42 * 12);
@@ -142,7 +143,7 @@ TEST_CASE("the file on disk has the documented layout") {
     CHECK(x == 1.0f); // second vertex of the first mesh
 }
 
-TEST_CASE("a .bxw file cut at any byte is refused") {
+TEST_CASE("bxw: a .bxw file cut at any byte is refused") {
     for (const Volumes& volumes : layouts) {
         const std::string bytes = sample_bytes(volumes, Levels::two);
         for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -153,7 +154,7 @@ TEST_CASE("a .bxw file cut at any byte is refused") {
     }
 }
 
-TEST_CASE("a .bxw file with any byte flipped is refused") {
+TEST_CASE("bxw: a .bxw file with any byte flipped is refused") {
     for (const Volumes& volumes : layouts) {
         std::string bytes = sample_bytes(volumes, Levels::two);
         // Under a checker some: the hash over all of a file costs most there.
@@ -170,19 +171,19 @@ TEST_CASE("a .bxw file with any byte flipped is refused") {
     }
 }
 
-TEST_CASE("a .bxw file with bytes behind its end is refused") {
+TEST_CASE("bxw: a .bxw file with bytes behind its end is refused") {
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     CHECK(mentions(refusal(bytes + '\0'), "trailing"));
     CHECK(mentions(refusal(bytes + bytes), "trailing"));
 }
 
-TEST_CASE("a file that ends earlier than its size said is refused") { // it shrank while it was read
+TEST_CASE("bxw: a file that ends earlier than its size said is refused") { // it shrank while it was read
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     std::istringstream in(bytes.substr(0, bytes.size() - 1));
     CHECK_THROWS_AS(bxw::read(in, bytes.size(), "test.bxw"), InputError);
 }
 
-TEST_CASE("a newer .bxw file is refused as newer, whatever follows its version") {
+TEST_CASE("bxw: a newer .bxw file is refused as newer, whatever follows its version") {
     std::string bytes = sample_bytes(layouts[0], Levels::one);
     poke(bytes, 8, bxw_version + 1);
     CHECK(mentions(refusal(bytes), "newer"));
@@ -191,7 +192,7 @@ TEST_CASE("a newer .bxw file is refused as newer, whatever follows its version")
     CHECK(mentions(refusal(bytes), "no such format version"));
 }
 
-TEST_CASE("an older .bxw file is refused as older") {
+TEST_CASE("bxw: an older .bxw file is refused as older") {
     std::string bytes = sample_bytes(layouts[0], Levels::one);
     for (std::uint32_t version = 1; version < bxw_version; ++version) {
         poke(bytes, 8, version);
@@ -199,7 +200,7 @@ TEST_CASE("an older .bxw file is refused as older") {
     }
 }
 
-TEST_CASE("what is not a .bxw file is told apart and refused by its name") {
+TEST_CASE("bxw: what is not a .bxw file is told apart and refused by its name") {
     const TemporaryFolder folder;
     const auto refused = [](const std::filesystem::path& file) {
         try {
@@ -223,7 +224,7 @@ TEST_CASE("what is not a .bxw file is told apart and refused by its name") {
     CHECK(refused("/dev/zero"));
 }
 
-TEST_CASE("a section table that lies is refused, its checksum being right") {
+TEST_CASE("bxw: a section table that lies is refused, its checksum being right") {
     const std::string bytes = sample_bytes(layouts[0], Levels::two);
     const auto sections = sections_of(bytes);
     const auto table = table_of(bytes);
@@ -252,7 +253,7 @@ TEST_CASE("a section table that lies is refused, its checksum being right") {
     }
 }
 
-TEST_CASE("counts beyond their section are refused before memory is taken") {
+TEST_CASE("bxw: counts beyond their section are refused before memory is taken") {
     const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
     // Offsets follow from bxw_scene.hpp: three counts, the mesh count, then the first mesh ("one") and its sizes.
     constexpr std::size_t mesh_count = 24;
@@ -273,19 +274,19 @@ TEST_CASE("counts beyond their section are refused before memory is taken") {
     CHECK(mentions(refusal(seal(sections)), "section scene"));
 
     // Of materials: the materials, the name of the first; and the last 8 bytes are the length of the last image.
-    const std::size_t last = original[materials_section].size() - 8;
+    const std::size_t last = original[looks_section].size() - 8;
     for (const std::size_t offset : {std::size_t{0}, std::size_t{8}, last}) {
         for (const std::uint64_t count : {std::uint64_t{1} << 40, ~std::uint64_t{0}, std::uint64_t{1} << 63}) {
             sections = original;
-            poke(sections[materials_section], offset, count);
+            poke(sections[looks_section], offset, count);
             CHECK(mentions(refusal(seal(sections)), offset == last ? "section images" : "section looks"));
         }
     }
 }
 
-TEST_CASE("the sections of scene and materials are refused when they are cut at any byte") {
+TEST_CASE("bxw: the sections of scene and materials are refused when they are cut at any byte") {
     const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
-    for (const std::size_t section : {scene_section, materials_section}) {
+    for (const std::size_t section : {scene_section, looks_section}) {
         for (std::size_t size = 0; size < original[section].size(); ++size) {
             CAPTURE(size);
             auto sections = original;
@@ -295,7 +296,7 @@ TEST_CASE("the sections of scene and materials are refused when they are cut at 
     }
 }
 
-TEST_CASE("a hostile element is refused although every checksum is right") {
+TEST_CASE("bxw: a hostile element is refused although every checksum is right") {
     const auto original = sections_of(sample_bytes(layouts[0], Levels::two));
     const auto hostile = [&](auto&& change) {
         auto sections = original;
@@ -312,8 +313,8 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     CHECK(mentions(hostile([](auto& s) { s[normals_section].clear(); }), "section normals"));
     CHECK(mentions(hostile([](auto& s) { s[images_section][0] = 'G'; }), "images[0]"));
     // Base colour, and the texture of the first input, behind two counts, a name of 10 bytes and the factors.
-    CHECK(mentions(hostile([&](auto& s) { poke(s[materials_section], 26, nan); }), "materials[0].base_color"));
-    CHECK(mentions(hostile([](auto& s) { poke(s[materials_section], 90, 3u); }), "materials[0].base_color_texture"));
+    CHECK(mentions(hostile([&](auto& s) { poke(s[looks_section], 26, nan); }), "materials[0].base_color"));
+    CHECK(mentions(hostile([](auto& s) { poke(s[looks_section], 90, 3u); }), "materials[0].base_color_texture"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 0, 2u); }), "layout"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 4, 3u); }), "levels"));
     CHECK(mentions(hostile([](auto& s) { poke(s[tree_section], 8, 7u); }), "bottom_depth"));
@@ -328,7 +329,7 @@ TEST_CASE("a hostile element is refused although every checksum is right") {
     CHECK(mentions(hostile([&](auto& s) { poke(s[binary_nodes_section], 0, nan); }), "binary_nodes[0].child[0]"));
 }
 
-TEST_CASE("whatever an attacker writes over one word, reading refuses it or gives a tree that validates") {
+TEST_CASE("bxw: whatever an attacker writes over one word, reading refuses it or gives a tree that validates") {
     // All six arrangements, every word, the values that break index arithmetic.
     std::size_t accepted = 0;
     std::size_t refused = 0;

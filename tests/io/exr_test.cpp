@@ -44,7 +44,7 @@ std::vector<float> ramp(std::size_t size) {
 
 } // namespace
 
-TEST_CASE("an EXR file gives back every channel, as OpenEXR reads it") {
+TEST_CASE("exr: an EXR file gives back every channel, as OpenEXR reads it") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.exr";
     // 35 rows: OpenEXR compresses ZIP in blocks of 16, so two full blocks and a part.
@@ -70,7 +70,7 @@ TEST_CASE("an EXR file gives back every channel, as OpenEXR reads it") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("an EXR file's header says what the image's attributes say, and nothing of the day") {
+TEST_CASE("exr: an EXR file's header says what the image's attributes say, and nothing of the day") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.exr", again = folder.path() / "again.exr";
     Image image{2, 2, {{"R", ramp(4)}}};
@@ -93,7 +93,7 @@ TEST_CASE("an EXR file's header says what the image's attributes say, and nothin
     CHECK(header.findTypedAttribute<Imf::StringAttribute>("capDate") == nullptr);
 }
 
-TEST_CASE("an attribute that EXR has itself, or that has no name, is refused") {
+TEST_CASE("exr: an attribute that EXR has itself, or that has no name, is refused") {
     const TemporaryFolder folder;
     for (const std::string& name : {std::string("channels"), std::string("compression"), std::string()}) {
         Image image{2, 2, {{"R", ramp(4)}}};
@@ -103,7 +103,7 @@ TEST_CASE("an attribute that EXR has itself, or that has no name, is refused") {
     CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("an image that EXR cannot hold is refused and nothing is written") {
+TEST_CASE("exr: an image that EXR cannot hold is refused and nothing is written") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.exr";
     const auto where = [&](const Image& image) -> std::string {
@@ -128,7 +128,7 @@ TEST_CASE("an image that EXR cannot hold is refused and nothing is written") {
     CHECK_THROWS_AS(save_exr(folder.path() / "missing" / "a.exr", {2, 2, {{"R", four}}}), OutputError);
 }
 
-TEST_CASE("a channel name of 255 characters is kept") { // more than the 31 of OpenEXR's short names
+TEST_CASE("exr: a channel name of 255 characters is kept") { // more than the 31 of OpenEXR's short names
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.exr";
     const std::string name(255, 'n');

@@ -64,7 +64,7 @@ double expected(const Component& kind, const std::byte* from, bool normalized) {
 
 } // namespace
 
-TEST_CASE("positions of every component type, stride and offset") {
+TEST_CASE("gltf_accessor: positions of every component type, stride and offset") {
     test::Random random(2);
     for (const Component& kind : components) {
         for (const bool normalized : {false, true}) {
@@ -102,7 +102,7 @@ TEST_CASE("positions of every component type, stride and offset") {
     }
 }
 
-TEST_CASE("indices of every type, and none") {
+TEST_CASE("gltf_accessor: indices of every type, and none") {
     const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const std::vector<glm::uvec3> wanted{{2, 1, 0}, {0, 3, 2}};
     const auto load = [&](auto zero, int type) {
@@ -123,7 +123,7 @@ TEST_CASE("indices of every type, and none") {
     CHECK(fixture.load().meshes.at(0).triangles == std::vector<glm::uvec3>{{0, 1, 2}, {3, 4, 5}});
 }
 
-TEST_CASE("sparse positions, over a buffer view and over zeros") {
+TEST_CASE("gltf_accessor: sparse positions, over a buffer view and over zeros") {
     for (const bool with_base : {true, false}) {
         CAPTURE(with_base);
         GltfFixture fixture;
@@ -159,7 +159,7 @@ TEST_CASE("sparse positions, over a buffer view and over zeros") {
     }
 }
 
-TEST_CASE("an accessor that reaches outside is refused, whatever arithmetic would overflow") {
+TEST_CASE("gltf_accessor: an accessor that reaches outside is refused, whatever arithmetic would overflow") {
     const auto fault = [](auto change) {
         GltfFixture fixture = test::triangle_fixture(); // accessor 0 positions in view 0, accessor 1 indices in view 1
         change(fixture.root);

@@ -53,7 +53,8 @@ void write(const std::filesystem::path& file, const std::vector<std::byte>& byte
 
 } // namespace
 
-TEST_CASE("data URIs: base64 of both alphabets, broken into lines, escaped or without padding, and text") {
+TEST_CASE(
+    "gltf_buffers: data URIs: base64 of both alphabets, broken into lines, escaped or without padding, and text") {
     const GltfFixture fixture = odd_triangle();
     const std::vector<glm::vec3> wanted = fixture.load().meshes.at(0).positions;
     const std::string plain = base64(fixture.binary), safe = base64(fixture.binary, "-_");
@@ -87,7 +88,7 @@ TEST_CASE("data URIs: base64 of both alphabets, broken into lines, escaped or wi
                              InputError);
 }
 
-TEST_CASE("paths: escapes or none, backslashes, and dots inside of the folder") {
+TEST_CASE("gltf_buffers: paths: escapes or none, backslashes, and dots inside of the folder") {
     const test::TemporaryFolder folder;
     const GltfFixture fixture = test::triangle_fixture();
     write(folder.path() / "scene/sub/mesh.bin", fixture.binary);
@@ -131,7 +132,7 @@ TEST_CASE("paths: escapes or none, backslashes, and dots inside of the folder") 
     CHECK(fault("http://a/b.bin") == "text: buffers[0].uri: is neither a data URI nor a relative path: http://a/b.bin");
 }
 
-TEST_CASE("a buffer without data fails where something is read from it, and nowhere else") {
+TEST_CASE("gltf_buffers: a buffer without data fails where something is read from it, and nowhere else") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["buffers"] = {{{"byteLength", fixture.binary.size()}}, {{"byteLength", 100}}};
     CHECK(fixture.load().warnings.empty()); // valid: extensions may fill it
@@ -152,7 +153,7 @@ TEST_CASE("a buffer without data fails where something is read from it, and nowh
     CHECK(fixture.fault() == "buffers[2].uri");
 }
 
-TEST_CASE("no message carries more than an excerpt of what a file says") {
+TEST_CASE("gltf_buffers: no message carries more than an excerpt of what a file says") {
     const std::string longest(100'000, 'x');
     const auto check = [](const GltfFixture& fixture) {
         try {

@@ -67,7 +67,7 @@ std::string triangle_text(const std::string& uri) {
 
 } // namespace
 
-TEST_CASE("GLB is known by its magic, text by its lack, whatever the file is called") {
+TEST_CASE("gltf_document: GLB is known by its magic, text by its lack, whatever the file is called") {
     const TemporaryFolder folder;
     const GltfFixture fixture = test::triangle_fixture();
     CHECK(load_gltf(folder.write("binary.gltf", fixture.bytes())).triangle_count() == 1);
@@ -75,7 +75,7 @@ TEST_CASE("GLB is known by its magic, text by its lack, whatever the file is cal
     CHECK(load_gltf(folder.write("text.glb", bytes_of(triangle_text("data.bin")))).triangle_count() == 1);
 }
 
-TEST_CASE("buffers by data URI and by file, with escapes, spaces and letters of any script") {
+TEST_CASE("gltf_document: buffers by data URI and by file, with escapes, spaces and letters of any script") {
     const TemporaryFolder folder;
     const GltfFixture fixture = test::triangle_fixture();
     folder.write("a b%20c/\u2764 d.bin", fixture.binary);
@@ -94,7 +94,7 @@ TEST_CASE("buffers by data URI and by file, with escapes, spaces and letters of 
     CHECK(text_fault(triangle_text("data:application/octet-stream,plain")) == "buffers[0]"); // five bytes
 }
 
-TEST_CASE("buffer files stay inside the folder of the scene, exist, and are long enough") {
+TEST_CASE("gltf_document: buffer files stay inside the folder of the scene, exist, and are long enough") {
     const TemporaryFolder folder;
     const GltfFixture fixture = test::triangle_fixture();
     folder.write("outside.bin", fixture.binary);
@@ -122,7 +122,7 @@ TEST_CASE("buffer files stay inside the folder of the scene, exist, and are long
     CHECK(text_fault(absent.root.dump()) == "buffers[0]");
 }
 
-TEST_CASE("missing, empty and foreign files are refused") {
+TEST_CASE("gltf_document: missing, empty and foreign files are refused") {
     const TemporaryFolder folder;
     CHECK(fault(folder.path / "missing.gltf") == "");
     CHECK(fault(folder.path) == "");
@@ -139,7 +139,7 @@ TEST_CASE("missing, empty and foreign files are refused") {
     CHECK(text_fault("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"\xff\"}}") == "JSON");
 }
 
-TEST_CASE("an empty scene is a scene") {
+TEST_CASE("gltf_document: an empty scene is a scene") {
     for (const char* text : {R"({"asset":{"version":"2.0"}})", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{}]})",
                              R"({"asset":{"version":"2.0"},"nodes":[{}],"scenes":[{"nodes":[0]}]})"}) {
         const Scene scene = load_gltf_memory(bytes_of(text), "text", {});
@@ -150,7 +150,7 @@ TEST_CASE("an empty scene is a scene") {
     }
 }
 
-TEST_CASE("a GLB cut at any byte is refused") {
+TEST_CASE("gltf_document: a GLB cut at any byte is refused") {
     const std::vector<std::byte> whole = test::triangle_fixture().bytes();
     for (std::size_t size = 0; size < whole.size(); ++size) {
         CAPTURE(size);
@@ -158,7 +158,7 @@ TEST_CASE("a GLB cut at any byte is refused") {
     }
 }
 
-TEST_CASE("a GLB with any byte changed is refused or keeps every promise of a scene") {
+TEST_CASE("gltf_document: a GLB with any byte changed is refused or keeps every promise of a scene") {
     const std::vector<std::byte> whole = test::triangle_fixture().bytes();
     int refused = 0;
     for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -176,7 +176,7 @@ TEST_CASE("a GLB with any byte changed is refused or keeps every promise of a sc
     CHECK(refused > 0);
 }
 
-TEST_CASE("JSON nested without end neither overflows the stack nor takes long") {
+TEST_CASE("gltf_document: JSON nested without end neither overflows the stack nor takes long") {
     constexpr std::size_t depth = 1'000'000;
     const std::string nest = std::string(depth, '[') + std::string(depth, ']');
     const std::string head = R"({"asset":{"version":"2.0"},)";
@@ -187,7 +187,7 @@ TEST_CASE("JSON nested without end neither overflows the stack nor takes long") 
     CHECK(text_fault(std::string(depth, '[')) == "JSON");
 }
 
-TEST_CASE("a required extension that may change geometry is refused by name, others pass") {
+TEST_CASE("gltf_document: a required extension that may change geometry is refused by name, others pass") {
     const auto load = [](const char* name) {
         GltfFixture fixture = test::triangle_fixture();
         fixture.root["extensionsRequired"] = {"KHR_materials_unlit", name};
@@ -206,7 +206,7 @@ TEST_CASE("a required extension that may change geometry is refused by name, oth
     CHECK(fixture.fault() == "extensionsRequired[1]");
 }
 
-TEST_CASE("what Boxwood does not read may be as broken as it likes") {
+TEST_CASE("gltf_document: what Boxwood does not read may be as broken as it likes") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["animations"] = {{{"channels", -1}}};
     fixture.root["extensions"] = {{"ACME_new", {{"extensions", {{"KHR_lights_punctual", 7}}}}}};

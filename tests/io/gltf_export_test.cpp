@@ -68,7 +68,7 @@ Scene one_triangle() {
 
 } // namespace
 
-TEST_CASE("every procedural scene comes back as it was") {
+TEST_CASE("gltf_export: every procedural scene comes back as it was") {
     for (const ProceduralKind& kind : procedural_kinds()) {
         CAPTURE(kind.name);
         check_round_trip(make_procedural(kind.name));
@@ -76,7 +76,7 @@ TEST_CASE("every procedural scene comes back as it was") {
     check_round_trip(Scene{});
 }
 
-TEST_CASE("any transform comes back bit for bit") {
+TEST_CASE("gltf_export: any transform comes back bit for bit") {
     test::Random random(4);
     Scene scene = one_triangle();
     for (int i = 0; i < 2000; ++i) {
@@ -97,14 +97,14 @@ TEST_CASE("any transform comes back bit for bit") {
     check_round_trip(scene);
 }
 
-TEST_CASE("cameras of both kinds come back") {
+TEST_CASE("gltf_export: cameras of both kinds come back") {
     Scene scene = one_triangle();
     scene.cameras.push_back({"a", glm::mat4(1), true, 0.7f});
     scene.cameras.push_back({"b", {{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {1, 2, 3, 1}}, false, 0.8f, 2.5f});
     check_round_trip(scene);
 }
 
-TEST_CASE("materials, textures, pictures, lights and attributes come back") {
+TEST_CASE("gltf_export: materials, textures, pictures, lights and attributes come back") {
     Scene scene = test::sample_scene();
     scene.counts = {};
     scene.warnings = {};
@@ -126,7 +126,7 @@ TEST_CASE("materials, textures, pictures, lights and attributes come back") {
     for (int column = 0; column < 3; ++column) CHECK(glm::length(back[column] - turned[column]) < 1e-6f);
 }
 
-TEST_CASE("nothing is written when it cannot be, or when the scene is broken") {
+TEST_CASE("gltf_export: nothing is written when it cannot be, or when the scene is broken") {
     const auto folder = std::filesystem::temp_directory_path() / ("boxwood-no-folder-" + std::to_string(::getpid()));
     CHECK_THROWS_AS(save_glb(folder / "scene.glb", one_triangle()), OutputError);
     CHECK(!std::filesystem::exists(folder));

@@ -19,7 +19,7 @@ json draco_of(std::size_t view) { return {{draco, {{"bufferView", view}, {"attri
 
 } // namespace
 
-TEST_CASE("each extension that is used and not read is named once, with what stands in for it") {
+TEST_CASE("gltf_extensions: each extension that is used and not read is named once, with what stands in for it") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["extensionsUsed"] = {"KHR_materials_clearcoat",
                                       "KHR_materials_unlit",
@@ -40,7 +40,7 @@ TEST_CASE("each extension that is used and not read is named once, with what sta
     CHECK(fixture.load().warnings.empty());
 }
 
-TEST_CASE("a primitive of Draco alone is left out by name, one with uncompressed data is read") {
+TEST_CASE("gltf_extensions: a primitive of Draco alone is left out by name, one with uncompressed data is read") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["extensionsUsed"] = {draco};
     json& primitive = fixture.root["meshes"][0]["primitives"][0];
@@ -67,7 +67,8 @@ TEST_CASE("a primitive of Draco alone is left out by name, one with uncompressed
     }
 }
 
-TEST_CASE("a buffer that only compressed data could fill is refused with the name of their extension") {
+TEST_CASE(
+    "gltf_extensions: a buffer that only compressed data could fill is refused with the name of their extension") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["extensionsUsed"] = {"EXT_meshopt_compression"};
     fixture.root["buffers"] = {{{"byteLength", fixture.binary.size()}}, {{"byteLength", 36}}};
@@ -78,7 +79,7 @@ TEST_CASE("a buffer that only compressed data could fill is refused with the nam
     CHECK_THROWS_WITH_AS(fixture.load(), doctest::Contains("EXT_meshopt_compression is not read"), InputError);
 }
 
-TEST_CASE("of specular-glossiness the diffuse part is the base colour where nothing else is") {
+TEST_CASE("gltf_extensions: of specular-glossiness the diffuse part is the base colour where nothing else is") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["extensionsUsed"] = {specular_glossiness};
     fixture.root["textures"] = json::array({{{"source", 0}}});

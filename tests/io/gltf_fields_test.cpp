@@ -38,7 +38,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 } // namespace
 
-TEST_CASE("whole numbers may be written with a point or an exponent") {
+TEST_CASE("gltf_fields: whole numbers may be written with a point or an exponent") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["buffers"] = {
         {{"byteLength", 48}, {"uri", "data:;base64," + std::string(64, 'A')}}}; // 48 bytes of zeros
@@ -58,7 +58,7 @@ TEST_CASE("whole numbers may be written with a point or an exponent") {
     }
 }
 
-TEST_CASE("a negative zero stays one") {
+TEST_CASE("gltf_fields: a negative zero stays one") {
     const Lines lines = warnings_after([](GltfFixture& f) { f.root["nodes"][0]["translation"] = {-0.0, 0, 0}; });
     CHECK(lines.empty());
     GltfFixture fixture = test::triangle_fixture();
@@ -68,7 +68,7 @@ TEST_CASE("a negative zero stays one") {
     CHECK(place == glm::vec4(0, 1, -2, 1));
 }
 
-TEST_CASE("references of -1 count as absent, with a warning") {
+TEST_CASE("gltf_fields: references of -1 count as absent, with a warning") {
     const auto check = [](const char* pointer, const std::string& where) {
         CAPTURE(pointer);
         const Lines lines = warnings_after([&](GltfFixture& f) { f.root[json::json_pointer(pointer)] = -1; });
@@ -96,7 +96,7 @@ TEST_CASE("references of -1 count as absent, with a warning") {
     CHECK(fixture.load().warnings.at(1) == "meshes[0].primitives[0]: has no positions, skipped");
 }
 
-TEST_CASE("null and empty members count as absent, with a warning for each kind") {
+TEST_CASE("gltf_fields: null and empty members count as absent, with a warning for each kind") {
     const Lines lines = warnings_after([](GltfFixture& f) {
         f.root["nodes"][0]["name"] = nullptr;
         f.root["meshes"][0]["name"] = nullptr;
@@ -112,7 +112,7 @@ TEST_CASE("null and empty members count as absent, with a warning for each kind"
     CHECK(warnings_after([](GltfFixture& f) { f.root["nodes"][0]["extensions"] = {{"ACME_new", 7}}; }).empty());
 }
 
-TEST_CASE("a byteStride that glTF forbids is followed where elements fit in it, with a warning") {
+TEST_CASE("gltf_fields: a byteStride that glTF forbids is followed where elements fit in it, with a warning") {
     const auto stride = [](std::size_t view, std::size_t value) {
         return warnings_after([=](GltfFixture& f) { f.root["bufferViews"][view]["byteStride"] = value; });
     };
@@ -135,14 +135,14 @@ TEST_CASE("a byteStride that glTF forbids is followed where elements fit in it, 
     CHECK(fixture.fault() == "accessors[2]");
 }
 
-TEST_CASE("an alpha mode that glTF does not know is opaque, with a warning") {
+TEST_CASE("gltf_fields: an alpha mode that glTF does not know is opaque, with a warning") {
     const Lines lines = warnings_after([](GltfFixture& f) {
         f.root["materials"] = {{{"name", "paint"}, {"alphaMode", "DITHER"}}};
     });
     CHECK(lines == Lines{"materials[0].alphaMode: is not a mode that glTF knows; taken as OPAQUE"});
 }
 
-TEST_CASE("warnings: faults that repeat are one line, and no more than a hundred lines are kept") {
+TEST_CASE("gltf_fields: warnings: faults that repeat are one line, and no more than a hundred lines are kept") {
     Warnings warnings;
     for (int i = 0; i < 1000; ++i) warnings.add_repeated(element("nodes", static_cast<std::size_t>(i)), "is odd");
     for (int i = 0; i < 150; ++i) warnings.add("scene", std::to_string(i));

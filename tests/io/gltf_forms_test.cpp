@@ -40,7 +40,7 @@ glm::vec3 normal_of(const Mesh& mesh, std::size_t triangle) {
 
 } // namespace
 
-TEST_CASE("a mesh flattened by a scale of 0 on one axis is a sheet of its own in world space") {
+TEST_CASE("gltf_forms: a mesh flattened by a scale of 0 on one axis is a sheet of its own in world space") {
     GltfFixture fixture = tetrahedron();
     fixture.append("nodes", {{"mesh", 0}, {"name", "sheet"}, {"scale", {2, 3, 0}}, {"translation", {0, 0, 7}}});
     fixture.append("nodes", {{"mesh", 0}, {"name", "mirrored"}, {"scale", {-2, 3, 0}}});
@@ -70,7 +70,7 @@ TEST_CASE("a mesh flattened by a scale of 0 on one axis is a sheet of its own in
     for (const std::size_t side : {1, 2, 3}) CHECK(normal_of(scene.meshes[1], side).z > 0.0f);
 }
 
-TEST_CASE("an instance is dropped where less than a plane is left of it, and only there") {
+TEST_CASE("gltf_forms: an instance is dropped where less than a plane is left of it, and only there") {
     const auto load = [](const json& node) {
         GltfFixture fixture = tetrahedron(); // of which no axis leaves nothing
         json& only = fixture.root["nodes"][0];
@@ -105,7 +105,7 @@ TEST_CASE("an instance is dropped where less than a plane is left of it, and onl
     CHECK(scene.instances.at(0).transform == glm::mat4(1.0f));
 }
 
-TEST_CASE("instances of EXT_mesh_gpu_instancing that are flattened are sheets, too") {
+TEST_CASE("gltf_forms: instances of EXT_mesh_gpu_instancing that are flattened are sheets, too") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"SCALE", fixture.positions({1, 1, 1, 1, 1, 0, 0, 0, 1, 2, 2, 2})}};
@@ -115,13 +115,13 @@ TEST_CASE("instances of EXT_mesh_gpu_instancing that are flattened are sheets, t
     CHECK(scene.counts.dropped_instances == 1);
 }
 
-TEST_CASE("a mesh that is only shown in a form of its own is not there besides") {
+TEST_CASE("gltf_forms: a mesh that is only shown in a form of its own is not there besides") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["nodes"][0]["scale"] = {1, 0, 1};
     CHECK(fixture.load().meshes.size() == 1);
 }
 
-TEST_CASE("points are counted and warned about once, however many forms their mesh has") {
+TEST_CASE("gltf_forms: points are counted and warned about once, however many forms their mesh has") {
     GltfFixture fixture = tetrahedron();
     fixture.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
     for (int i = 0; i < 3; ++i) fixture.append("nodes", {{"mesh", 0}, {"scale", {1, 1, 0}}});
@@ -131,7 +131,7 @@ TEST_CASE("points are counted and warned about once, however many forms their me
     CHECK(scene.warnings.size() == 1);
 }
 
-TEST_CASE("more copies of a mesh than a file of its size may ask for are refused before any is made") {
+TEST_CASE("gltf_forms: more copies of a mesh than a file of its size may ask for are refused before any is made") {
     constexpr std::size_t vertices = 30'000, nodes = 12'000; // 12 bytes each: 4.3 GB
     GltfFixture fixture;
     fixture.show({{"attributes", {{"POSITION", fixture.positions(std::vector<float>(3 * vertices, 1.0f))}}}},

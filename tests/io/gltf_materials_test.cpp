@@ -52,7 +52,8 @@ bool warns(const Scene& scene, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("a material without members is glTF's default, and a triangle without material the plain one") {
+TEST_CASE(
+    "gltf_materials: a material without members is glTF's default, and a triangle without material the plain one") {
     GltfFixture fixture = test::triangle_fixture();
     CHECK(fixture.load().meshes[0].materials.empty());
     fixture.root["materials"] = json::array({json::object()});
@@ -71,7 +72,7 @@ TEST_CASE("a material without members is glTF's default, and a triangle without 
     CHECK(fixture.fault() == "meshes[0].primitives[0].material");
 }
 
-TEST_CASE("every member of a material and its extensions is read") {
+TEST_CASE("gltf_materials: every member of a material and its extensions is read") {
     GltfFixture fixture = textured_fixture();
     fixture.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
     fixture.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9987}}};
@@ -116,7 +117,7 @@ TEST_CASE("every member of a material and its extensions is read") {
     CHECK(scene.images[0].name == "small");
 }
 
-TEST_CASE("numbers out of range take the nearest in it, with a warning") {
+TEST_CASE("gltf_materials: numbers out of range take the nearest in it, with a warning") {
     GltfFixture fixture = textured_fixture();
     fixture.root["materials"][0] = json::parse(R"({
         "pbrMetallicRoughness": {"baseColorFactor": [2, -1, 0.5, 1e300], "metallicFactor": -0.1, "roughnessFactor": 7},
@@ -134,7 +135,8 @@ TEST_CASE("numbers out of range take the nearest in it, with a warning") {
     CHECK(warns(scene, "materials[0].pbrMetallicRoughness.roughnessFactor: is out of range; taken as 1"));
 }
 
-TEST_CASE("a picture that is missing, unreadable or of another format is left out by name, with what shows it") {
+TEST_CASE("gltf_materials: a picture that is missing, unreadable or of another format is left out by name, with what "
+          "shows it") {
     const auto check = [](const json& image, const std::string& reason) {
         CAPTURE(image.dump());
         GltfFixture fixture = textured_fixture();
@@ -175,7 +177,7 @@ TEST_CASE("a picture that is missing, unreadable or of another format is left ou
     CHECK(warns(fixture.load(), "TEXCOORD_2"));
 }
 
-TEST_CASE("elements that name the same bytes share one image") {
+TEST_CASE("gltf_materials: elements that name the same bytes share one image") {
     GltfFixture fixture = textured_fixture();
     const json image = fixture.root["images"][0];
     for (int i = 0; i < 99; ++i) {
@@ -190,7 +192,7 @@ TEST_CASE("elements that name the same bytes share one image") {
     CHECK(scene.materials[0].normal_texture.texture == 99);
 }
 
-TEST_CASE("a required extension of materials that is not read is named") {
+TEST_CASE("gltf_materials: a required extension of materials that is not read is named") {
     GltfFixture fixture = textured_fixture();
     fixture.root["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"};
     fixture.root["materials"][0]["extensions"] = {{"KHR_materials_unlit", json::object()},
@@ -201,7 +203,7 @@ TEST_CASE("a required extension of materials that is not read is named") {
     CHECK(warns(scene, "extensionsRequired[1]: KHR_materials_pbrSpecularGlossiness"));
 }
 
-TEST_CASE("pictures beside the scene are read, those outside its folder are not") {
+TEST_CASE("gltf_materials: pictures beside the scene are read, those outside its folder are not") {
     const test::TemporaryFolder folder;
     std::filesystem::create_directory(folder.path() / "scene");
     const std::vector<std::byte> png = small_png();
@@ -218,7 +220,7 @@ TEST_CASE("pictures beside the scene are read, those outside its folder are not"
     CHECK(warns(scene, "images[2].uri: does not exist: none.png"));
 }
 
-TEST_CASE("lights stand where their nodes are and shine along -z") {
+TEST_CASE("gltf_materials: lights stand where their nodes are and shine along -z") {
     json spot = json::parse(R"({"type": "spot", "color": [1, 0.5, 0], "intensity": 20, "range": 30,
                                 "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}})");
     GltfFixture fixture = lit_fixture(spot);
@@ -244,7 +246,8 @@ TEST_CASE("lights stand where their nodes are and shine along -z") {
     CHECK(lit_fixture({{"type", "spot"}}).load().lights.at(0).outer_cone == std::numbers::pi_v<float> / 4);
 }
 
-TEST_CASE("lights that give no light are left out, and angles and ranges out of range corrected, with a warning") {
+TEST_CASE("gltf_materials: lights that give no light are left out, and angles and ranges out of range corrected, with "
+          "a warning") {
     const auto left_out = [](const json& light, const std::string& reason) {
         const Scene scene = lit_fixture(light).load();
         return scene.lights.empty() && scene.warnings.size() == 1 && warns(scene, reason);
@@ -279,7 +282,7 @@ TEST_CASE("lights that give no light are left out, and angles and ranges out of 
     CHECK(left_out({{"type", "laser"}}, "lights[0].type: is \"laser\", which glTF does not know; light left out"));
 }
 
-TEST_CASE("attributes of every accessor type are read, normalised and cleaned") {
+TEST_CASE("gltf_materials: attributes of every accessor type are read, normalised and cleaned") {
     GltfFixture fixture = test::triangle_fixture();
     json& attributes = fixture.root["meshes"][0]["primitives"][0]["attributes"];
     attributes["NORMAL"] =
@@ -311,7 +314,7 @@ TEST_CASE("attributes of every accessor type are read, normalised and cleaned") 
     CHECK(fixture.fault() == "meshes[0].primitives[0].attributes.NORMAL");
 }
 
-TEST_CASE("primitives that share positions but not attributes or materials keep their own") {
+TEST_CASE("gltf_materials: primitives that share positions but not attributes or materials keep their own") {
     GltfFixture fixture;
     const std::size_t p = fixture.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
     const std::size_t up =
@@ -339,7 +342,7 @@ TEST_CASE("primitives that share positions but not attributes or materials keep 
     CHECK(mesh.uvs[0][7] == glm::vec2(1, 0));
 }
 
-TEST_CASE("triangles that are dropped take their materials and attributes along") {
+TEST_CASE("gltf_materials: triangles that are dropped take their materials and attributes along") {
     GltfFixture fixture;
     const std::size_t p = fixture.positions({0, 0, 0, not_a_number, 0, 0, 1, 0, 0, 0, 1, 0});
     const std::size_t uv = fixture.accessor(fixture.view(std::vector<float>{0, 0, 1, 1, 2, 2, 3, 3}), 5126, 4, "VEC2");

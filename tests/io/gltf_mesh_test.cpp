@@ -30,7 +30,7 @@ double normal_z(const Mesh& mesh, const glm::uvec3& t) {
 
 } // namespace
 
-TEST_CASE("strips and fans: every triangle faces the way of the first") {
+TEST_CASE("gltf_mesh: strips and fans: every triangle faces the way of the first") {
     const Mesh strip = zigzag(5, {0, 1, 2, 3, 4, 5}).load().meshes.at(0);
     CHECK(strip.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}}); // glTF 2.0, 3.7.2.1
     for (const glm::uvec3& t : strip.triangles) CHECK(normal_z(strip, t) > 0);
@@ -42,7 +42,7 @@ TEST_CASE("strips and fans: every triangle faces the way of the first") {
     CHECK(zigzag(6, {0}).load().meshes.empty());
 }
 
-TEST_CASE("points and lines are skipped and counted, modes beyond fans refused") {
+TEST_CASE("gltf_mesh: points and lines are skipped and counted, modes beyond fans refused") {
     for (int mode = 0; mode < 4; ++mode) {
         const Scene scene = zigzag(mode, {0, 1, 2}).load();
         CHECK(scene.meshes.empty());
@@ -53,7 +53,7 @@ TEST_CASE("points and lines are skipped and counted, modes beyond fans refused")
     CHECK(zigzag(7, {0, 1, 2}).fault() == "meshes[0].primitives[0].mode");
 }
 
-TEST_CASE("primitives of a mesh are concatenated; those that share positions share vertices") {
+TEST_CASE("gltf_mesh: primitives of a mesh are concatenated; those that share positions share vertices") {
     GltfFixture fixture;
     const std::size_t a = fixture.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
     const std::size_t b = fixture.positions({0, 0, 5, 1, 0, 5, 0, 1, 5});
@@ -69,7 +69,7 @@ TEST_CASE("primitives of a mesh are concatenated; those that share positions sha
     CHECK(mesh.triangles == std::vector<glm::uvec3>{{0, 1, 2}, {4, 5, 6}, {1, 3, 2}});
 }
 
-TEST_CASE("an index out of range or a restart value is refused by name") {
+TEST_CASE("gltf_mesh: an index out of range or a restart value is refused by name") {
     CHECK(zigzag(4, {0, 1, 2, 3, 6, 4}).fault() == "meshes[0].primitives[0].indices[4]");
     CHECK(zigzag(4, {0, 1, 0xffffffff}).fault() == "meshes[0].primitives[0].indices");
     GltfFixture fixture = test::triangle_fixture();
@@ -80,7 +80,7 @@ TEST_CASE("an index out of range or a restart value is refused by name") {
     CHECK(fixture.fault() == "meshes[0].primitives[0].indices");
 }
 
-TEST_CASE("vertices that are not finite or out of range take their triangles with them, counted") {
+TEST_CASE("gltf_mesh: vertices that are not finite or out of range take their triangles with them, counted") {
     const float infinity = std::numeric_limits<float>::infinity();
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity, 2.0f * largest_coordinate}) {
         CAPTURE(bad);
@@ -101,7 +101,7 @@ TEST_CASE("vertices that are not finite or out of range take their triangles wit
     }
 }
 
-TEST_CASE("triangles without area are kept") {
+TEST_CASE("gltf_mesh: triangles without area are kept") {
     GltfFixture fixture;
     fixture.show(
         {{"attributes", {{"POSITION", fixture.positions({1, 1, 1, 1, 1, 1, 2, 2, 2, 0, 0, 0, 1, 0, 0, 2, 0, 0})}}}});

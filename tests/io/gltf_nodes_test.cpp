@@ -31,7 +31,7 @@ void check_near(const glm::mat4& transform, const glm::dvec3& point, const glm::
 
 } // namespace
 
-TEST_CASE("a hierarchy of TRS and matrix nodes, with negative and unequal scale") {
+TEST_CASE("gltf_nodes: a hierarchy of TRS and matrix nodes, with negative and unequal scale") {
     GltfFixture fixture = test::triangle_fixture();
     const glm::dvec4 q(0.36, 0.48, 0.64, 0.48); // a unit quaternion
     fixture.root["nodes"] = {
@@ -54,7 +54,7 @@ TEST_CASE("a hierarchy of TRS and matrix nodes, with negative and unequal scale"
     }
 }
 
-TEST_CASE("which scene: the default one, else the first, else every root") {
+TEST_CASE("gltf_nodes: which scene: the default one, else the first, else every root") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["nodes"] = {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}, {{"mesh", 0}, {"name", "c"}}};
     const auto names = [&fixture] {
@@ -77,7 +77,7 @@ TEST_CASE("which scene: the default one, else the first, else every root") {
     CHECK(fixture.load().warnings.at(0).starts_with("scenes[0].nodes[1]: names a node that is in the scene already"));
 }
 
-TEST_CASE("nodes that are no tree are refused") {
+TEST_CASE("gltf_nodes: nodes that are no tree are refused") {
     const auto fault = [](const json& nodes, const json& roots) {
         GltfFixture fixture = test::triangle_fixture();
         fixture.root["nodes"] = nodes;
@@ -97,7 +97,7 @@ TEST_CASE("nodes that are no tree are refused") {
     CHECK(fault({{{"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}, {0}) == "nodes[0].matrix");
 }
 
-TEST_CASE("a chain of a hundred thousand nodes is no deeper than any other") {
+TEST_CASE("gltf_nodes: a chain of a hundred thousand nodes is no deeper than any other") {
     GltfFixture fixture = test::triangle_fixture();
     constexpr int depth = 100'000; // recursion would need tens of megabytes of stack
     fixture.root["nodes"] = json::array();
@@ -107,7 +107,7 @@ TEST_CASE("a chain of a hundred thousand nodes is no deeper than any other") {
     CHECK(scene.instances.at(0).transform[3] == glm::vec4(depth - 1, 0, 0, 1));
 }
 
-TEST_CASE("instances that cannot be placed are dropped, counted and named") {
+TEST_CASE("gltf_nodes: instances that cannot be placed are dropped, counted and named") {
     const auto check = [](const json& node) {
         GltfFixture fixture = test::triangle_fixture();
         json whole = node;
@@ -125,7 +125,8 @@ TEST_CASE("instances that cannot be placed are dropped, counted and named") {
     check({{"rotation", {0, 0, 0, 0}}});
 }
 
-TEST_CASE("EXT_mesh_gpu_instancing equals the same instances as nodes, with float and quantised rotations") {
+TEST_CASE(
+    "gltf_nodes: EXT_mesh_gpu_instancing equals the same instances as nodes, with float and quantised rotations") {
     test::Random random(3);
     constexpr std::size_t count = 9;
     std::vector<float> translations;
@@ -180,7 +181,7 @@ TEST_CASE("EXT_mesh_gpu_instancing equals the same instances as nodes, with floa
     CHECK(by_extension.fault() == where);
 }
 
-TEST_CASE("cameras stand where their nodes do") {
+TEST_CASE("gltf_nodes: cameras stand where their nodes do") {
     GltfFixture fixture = test::triangle_fixture();
     fixture.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 1}}}},
                                {{"type", "orthographic"},

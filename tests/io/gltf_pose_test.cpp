@@ -56,7 +56,7 @@ void check_x_from_minus_1_to_1(const Scene& scene) {
 
 } // namespace
 
-TEST_CASE("a skinned mesh is placed by its joints, not by its node") {
+TEST_CASE("gltf_pose: a skinned mesh is placed by its joints, not by its node") {
     GltfFixture moved = skinned_square();
     moved.root["nodes"][1]["translation"] = {100, 0, 0};
     check_x_from_minus_1_to_1(moved.load());
@@ -186,7 +186,7 @@ RandomSkin random_skin(int weight_type, bool short_joints, std::uint32_t seed) {
 
 } // namespace
 
-TEST_CASE("a vertex is at the weighted sum of its joints, of any component types and two sets") {
+TEST_CASE("gltf_pose: a vertex is at the weighted sum of its joints, of any component types and two sets") {
     for (const int weight_type : {5121, 5123, 5126})
         for (const bool short_joints : {false, true}) {
             CAPTURE(weight_type);
@@ -210,7 +210,8 @@ TEST_CASE("a vertex is at the weighted sum of its joints, of any component types
         }
 }
 
-TEST_CASE("joints that mirror turn triangles and tangents, so that their fronts and bitangents stay with the surface") {
+TEST_CASE("gltf_pose: joints that mirror turn triangles and tangents, so that their fronts and bitangents stay with "
+          "the surface") {
     GltfFixture fixture = skinned_square();
     attributes_of(fixture)["NORMAL"] = fixture.positions({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
     attributes_of(fixture)["TANGENT"] = fixture.accessor(
@@ -232,7 +233,7 @@ TEST_CASE("joints that mirror turn triangles and tangents, so that their fronts 
     CHECK(fixture.load().meshes.at(0).normals[0] == glm::vec3(0));
 }
 
-TEST_CASE("weights that say nothing are replaced with a warning, joints that do not exist are named") {
+TEST_CASE("gltf_pose: weights that say nothing are replaced with a warning, joints that do not exist are named") {
     const auto with_weights = [](const std::vector<float>& first) {
         GltfFixture fixture = skinned_square();
         std::vector<float> weights(16, 0.0f);
@@ -275,7 +276,7 @@ TEST_CASE("weights that say nothing are replaced with a warning, joints that do 
     CHECK(fixture.fault() == joints);
 }
 
-TEST_CASE("a skin's own faults are named") {
+TEST_CASE("gltf_pose: a skin's own faults are named") {
     const auto fault = [](const json& skin) {
         GltfFixture fixture = skinned_square();
         fixture.root["skins"][0] = skin;
@@ -307,7 +308,7 @@ TEST_CASE("a skin's own faults are named") {
     CHECK(fixture.fault() == "skins[0].inverseBindMatrices"); // one for two joints
 }
 
-TEST_CASE("a skinned mesh that its joints move out of range is dropped, counted and named") {
+TEST_CASE("gltf_pose: a skinned mesh that its joints move out of range is dropped, counted and named") {
     GltfFixture fixture = skinned_square();
     fixture.append("nodes", {{"mesh", 0}}); // the mesh itself is good
     for (const json& node : {json{{"scale", {1e30, 1e30, 1e30}}}, json{{"rotation", {0, 0, 0, 0}}}}) {
@@ -321,7 +322,7 @@ TEST_CASE("a skinned mesh that its joints move out of range is dropped, counted 
     }
 }
 
-TEST_CASE("a primitive without joints in a skinned mesh is placed by its node, with a warning") {
+TEST_CASE("gltf_pose: a primitive without joints in a skinned mesh is placed by its node, with a warning") {
     GltfFixture fixture = skinned_square();
     attributes_of(fixture).erase("JOINTS_0");
     attributes_of(fixture).erase("WEIGHTS_0");
@@ -331,7 +332,7 @@ TEST_CASE("a primitive without joints in a skinned mesh is placed by its node, w
     CHECK(scene.warnings.at(0).starts_with("meshes[0].primitives[0]: has no joints"));
 }
 
-TEST_CASE("morph targets are added with the weights of the mesh, or of the node before them") {
+TEST_CASE("gltf_pose: morph targets are added with the weights of the mesh, or of the node before them") {
     GltfFixture fixture = test::triangle_fixture();
     json& primitive = fixture.root["meshes"][0]["primitives"][0];
     primitive["attributes"]["NORMAL"] = fixture.positions({0, 0, 1, 0, 0, 1, 0, 0, 1});
@@ -380,7 +381,7 @@ TEST_CASE("morph targets are added with the weights of the mesh, or of the node 
     CHECK(fixture.fault() == "nodes[0].weights");
 }
 
-TEST_CASE("morph targets come before joints") {
+TEST_CASE("gltf_pose: morph targets come before joints") {
     GltfFixture fixture = skinned_square();
     fixture.root["meshes"][0]["primitives"][0]["targets"] = {
         {{"POSITION", fixture.positions({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0})}}};

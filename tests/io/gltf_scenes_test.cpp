@@ -69,7 +69,7 @@ std::filesystem::path scenes(const char* test, const char* folder) {
 
 } // namespace
 
-TEST_CASE("real scenes have the counts of their index") {
+TEST_CASE("gltf_scenes: real scenes have the counts of their index") {
     const auto folder = scenes("real scenes have the counts of their index", ".");
     if (folder.empty()) return;
     for (const Expected& expected : index_table) {
@@ -85,7 +85,7 @@ TEST_CASE("real scenes have the counts of their index") {
     }
 }
 
-TEST_CASE("the crowd is the same through nodes and through EXT_mesh_gpu_instancing") {
+TEST_CASE("gltf_scenes: the crowd is the same through nodes and through EXT_mesh_gpu_instancing") {
     const auto folder = scenes("the crowd through nodes and through EXT_mesh_gpu_instancing", ".");
     if (folder.empty()) return;
     const Scene nodes = load_gltf(folder / "synth_crowd_armadillo_1024.glb");
@@ -101,7 +101,7 @@ TEST_CASE("the crowd is the same through nodes and through EXT_mesh_gpu_instanci
     }
 }
 
-TEST_CASE("every conformance file loads, or is refused for the extension or version it asks for") {
+TEST_CASE("gltf_scenes: every conformance file loads, or is refused for the extension or version it asks for") {
     const auto folder = scenes("every conformance file loads or is refused by name", "conformance");
     if (folder.empty()) return;
     const std::map<std::string, std::string> refused{{"Compatibility_04.gltf", "asset.minVersion"},
@@ -128,7 +128,7 @@ TEST_CASE("every conformance file loads, or is refused for the extension or vers
     CHECK(turned_away == 6); // four with Draco, one of glTF 2.1, one of an extension that does not exist
 }
 
-TEST_CASE("the same model in different encodings is the same scene") {
+TEST_CASE("gltf_scenes: the same model in different encodings is the same scene") {
     const auto folder = scenes("the same model in different encodings", "conformance/sample-assets");
     if (folder.empty()) return;
     const auto check = [&folder](const char* a, const char* b, double tolerance) {
@@ -152,7 +152,7 @@ TEST_CASE("the same model in different encodings is the same scene") {
           1e-3);
 }
 
-TEST_CASE("every conformance file comes back as it was from what is written of it") {
+TEST_CASE("gltf_scenes: every conformance file comes back as it was from what is written of it") {
     const auto folder = scenes("every conformance file comes back", "conformance");
     if (folder.empty()) return;
     const test::TemporaryFolder target;
@@ -179,7 +179,7 @@ TEST_CASE("every conformance file comes back as it was from what is written of i
     CHECK(checked > 100);
 }
 
-TEST_CASE("malformed files load or are refused by name, and a scene that loads keeps its promises") {
+TEST_CASE("gltf_scenes: malformed files load or are refused by name, and a scene that loads keeps its promises") {
     const auto folder = scenes("malformed files", "malformed");
     if (folder.empty()) return;
     const std::map<std::string, std::string> refused{

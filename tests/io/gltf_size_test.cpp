@@ -36,7 +36,7 @@ std::string size_fault(const GltfFixture& fixture, std::uint64_t memory) {
 
 } // namespace
 
-TEST_CASE("indices without data are zeros, or their sparse values") {
+TEST_CASE("gltf_size: indices without data are zeros, or their sparse values") {
     GltfFixture fixture = test::triangle_fixture();
     const std::size_t zeros = implicit_accessor(fixture, 3, 5125, "SCALAR");
     fixture.root["meshes"][0]["primitives"][0]["indices"] = zeros;
@@ -50,7 +50,7 @@ TEST_CASE("indices without data are zeros, or their sparse values") {
     CHECK(scene.warnings.empty());
 }
 
-TEST_CASE("elements without data are bounded in all, before any is made") {
+TEST_CASE("gltf_size: elements without data are bounded in all, before any is made") {
     GltfFixture fixture;
     fixture.append("nodes", {{"mesh", 0}});
     json primitives = json::array();
@@ -84,7 +84,7 @@ TEST_CASE("elements without data are bounded in all, before any is made") {
     CHECK(fixture.load().meshes.empty());
 }
 
-TEST_CASE("parts of a file that are read many times over are bounded by the memory of the machine") {
+TEST_CASE("gltf_size: parts of a file that are read many times over are bounded by the memory of the machine") {
     CHECK(host_memory() > 0);
     GltfFixture fixture = test::triangle_fixture();
     for (std::size_t i = 1; i < 1000; ++i)
@@ -112,7 +112,7 @@ TEST_CASE("parts of a file that are read many times over are bounded by the memo
     CHECK(size_fault(pictures, 4800 + 1000) == "no error");
 }
 
-TEST_CASE("what shows nothing is named") {
+TEST_CASE("gltf_size: what shows nothing is named") {
     const auto warnings = [](auto change) {
         GltfFixture fixture = test::triangle_fixture();
         change(fixture);

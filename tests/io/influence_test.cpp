@@ -18,9 +18,11 @@ TEST_SUITE_BEGIN("io");
 namespace {
 
 const std::string plane =
-    R"({"kind": "plane", "point": [1, 2, 3], "direction": [0, 0, -2], "half_width": 4, "half_height": 5, "length": 6, "rays": 9})";
+    R"({"kind": "plane", "point": [1, 2, 3], "direction": [0, 0, -2], "half_width": 4, "half_height": 5, "length": 6,)"
+    R"( "rays": 9})";
 const std::string point =
-    R"({"kind": "point", "eye": [1, 2, 3], "direction": [1, 0, 0], "fov_x_degrees": 90, "fov_y_degrees": 60, "near": 0.5, "far": 8})";
+    R"({"kind": "point", "eye": [1, 2, 3], "direction": [1, 0, 0], "fov_x_degrees": 90, "fov_y_degrees": 60,)"
+    R"( "near": 0.5, "far": 8})";
 
 /// `text` with the first `from` replaced.
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -44,7 +46,7 @@ void check_refused(const std::string& area, const std::string& what) {
 
 } // namespace
 
-TEST_CASE("a list of influence areas is read") {
+TEST_CASE("influence: a list of influence areas is read") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "areas.json";
     std::ofstream(file) << "[" << plane << ", " << with(point, "}", R"(, "tolerance_degrees": 3, "share": 0.25})")
@@ -70,7 +72,7 @@ TEST_CASE("a list of influence areas is read") {
     CHECK(read_areas("[]", "file.json").empty());
 }
 
-TEST_CASE("influence areas that cannot be are refused by their index") {
+TEST_CASE("influence: influence areas that cannot be are refused by their index") {
     check_refused("7", "not a JSON object");
     check_refused("{}", "kind is missing");
     check_refused(with(plane, "\"plane\"", "\"plain\""), "kind");
@@ -102,7 +104,7 @@ TEST_CASE("influence areas that cannot be are refused by their index") {
     check_refused(with(plane, "}", ", \"tolerance_degrees\": -1}"), "tolerance");
 }
 
-TEST_CASE("files that are no list of influence areas are refused") {
+TEST_CASE("influence: files that are no list of influence areas are refused") {
     for (const std::string text :
          {"", "{}", "null", "[", "[1e999]", "[NaN]", "\xff", "[{}", "[{\"kind\": \"plane\",}]"})
         CHECK_THROWS_AS(read_areas(text, "file.json"), InputError);
@@ -118,7 +120,7 @@ TEST_CASE("files that are no list of influence areas are refused") {
     CHECK(read_areas(list.substr(0, list.size() - plane.size() - 1) + "]", "file.json").size() == most_areas);
 }
 
-TEST_CASE("the areas of the paper's experiments are read") {
+TEST_CASE("influence: the areas of the paper's experiments are read") {
     const auto file = scenes_folder().parent_path() / "influence" / "areas.json";
     if (scenes_folder().empty() || !std::filesystem::exists(file)) {
         MESSAGE("skipped: no influence/areas.json beside BOXWOOD_SCENES");

@@ -20,7 +20,7 @@ TEST_SUITE_BEGIN("io");
 using namespace boxwood;
 using boxwood::test::TemporaryFolder;
 
-TEST_CASE("a PNG file gives back every pixel, as stb_image reads it") {
+TEST_CASE("png: a PNG file gives back every pixel, as stb_image reads it") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.png";
     const std::uint32_t width = 5; // odd, and different from the height, to tell rows from columns
@@ -42,7 +42,7 @@ TEST_CASE("a PNG file gives back every pixel, as stb_image reads it") {
     CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("an image that PNG cannot hold is refused and nothing is written") {
+TEST_CASE("png: an image that PNG cannot hold is refused and nothing is written") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "image.png";
     const std::vector<std::uint8_t> twelve(12);

@@ -10,16 +10,16 @@
 namespace boxwood::test {
 
 /// Meshes of 1 and 37 triangles (37: the wide tree needs two levels, 32 fit in one), three instances (the first mesh
-/// twice), one camera of each kind, a warning and counts; the second mesh has every attribute, and there are materials, textures,
-/// pictures and lights of every kind.
+/// twice), one camera of each kind, a warning and counts; the second mesh has every attribute, and there are materials,
+/// textures, pictures and lights of every kind.
 Scene sample_scene();
 
 /// The tree of a scene, halved by triangle order. Quality does not matter here; every promise of TreeImage does. With
 /// oriented bounds every other volume stays aligned, and the others are the same boxes with their axes exchanged.
 TreeImage sample_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds = Bounds::aabb);
 
-/// Adds an influence area with a local tree over the first triangle to a sample tree of one level with axis-aligned boxes, and an
-/// index of two cells.
+/// Adds an influence area with a local tree over the first triangle to a sample tree of one level with axis-aligned
+/// boxes, and an index of two cells.
 void add_sample_area(TreeImage& tree);
 
 /// Equality of everything, floats by their bits.

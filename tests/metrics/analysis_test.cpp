@@ -113,7 +113,8 @@ AnalysisTree family(const std::vector<Aabb>& children) {
 
 } // namespace
 
-TEST_CASE("projection: its share of the rectangle is the share of rays that meet the box, and likewise of two boxes") {
+TEST_CASE("analysis: projection: its share of the rectangle is the share of rays that meet the box, and likewise of "
+          "two boxes") {
     Random random(31);
     const int side = small_sizes() ? 40 : 300, cases = small_sizes() ? 6 : 60;
     for (int i = 0; i < cases; ++i) {
@@ -149,7 +150,8 @@ TEST_CASE("projection: its share of the rectangle is the share of rays that meet
 }
 
 TEST_CASE("analysis: two boxes side by side, by hand") {
-    // From the front, that is along -z: unit squares at [0,1] and [0.5,1.5] of a rectangle [-2,2]^2, so 1/16 of it each.
+    // From the front, that is along -z: unit squares at [0,1] and [0.5,1.5] of a rectangle [-2,2]^2, so 1/16 of it
+    // each.
     const AnalysisTree tree = family({{{0, 0, 0}, {1, 1, 1}}, {{0.5f, 0, 3}, {1.5f, 1, 4}}});
     InfluenceRecord area = record(false, {0, 0, 10}, {0, 0, -1}, 2, 2, 0, 20);
     const float right[3] = {1, 0, 0}, up[3] = {0, 1, 0};
@@ -257,7 +259,8 @@ TEST_CASE("analysis: stored trees of every layout hold every triangle once, in n
                 CHECK(result.depth() == image.bottom_depth);
                 CHECK(result.primitives == main.nodes[0].primitives);
                 if (layout == Layout::binary) CHECK(result.all.nodes == 2 * result.primitives - 1);
-                // A function of the caller's: nodes whose box reaches out of their parent's, and edges to wrong parents.
+                // A function of the caller's: nodes whose box reaches out of their parent's, and edges to wrong
+                // parents.
                 const auto outside = [&](const NodeView& node, std::size_t& sum) {
                     for (std::uint32_t i = 0; i < node.children(); ++i) {
                         const NodeView child = node.child(i);

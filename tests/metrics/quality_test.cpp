@@ -238,7 +238,7 @@ TEST_CASE("quality: a scene times a power of two has its sums times powers of it
 }
 
 // Without flat boxes: whether a triangle that crosses one meets it is then rounding alone, and boxes below do not nest.
-TEST_CASE("overlap: equals clipping every triangle against every node in double") {
+TEST_CASE("quality: overlap: equals clipping every triangle against every node in double") {
     for (const bool oriented : {false, true}) {
         CAPTURE(oriented);
         const BuiltTrees built =
@@ -250,7 +250,7 @@ TEST_CASE("overlap: equals clipping every triangle against every node in double"
     }
 }
 
-TEST_CASE("overlap: small cases that are known") {
+TEST_CASE("quality: overlap: small cases that are known") {
     const auto overlap_of = [](const Mesh& mesh) {
         return device_overlap(build_trees_of(test_device(), scene_of({mesh})));
     };
@@ -271,7 +271,7 @@ TEST_CASE("overlap: small cases that are known") {
     CHECK(overlap_of(point) == 0.0);
 }
 
-TEST_CASE("overlap: more triangles than samples, and triangles that all lie on each other") {
+TEST_CASE("quality: overlap: more triangles than samples, and triangles that all lie on each other") {
     if (small_sizes()) return;
     // Just above the largest number of samples: every position but a few is one, so the oracle's sparser sample differs
     // from it by chance alone; 5 % is four times the deviation seen between seeds.

@@ -54,7 +54,7 @@ Scene lines_of(const Scene& scene, const BuildOptions& options, DepthRange depth
 
 } // namespace
 
-TEST_CASE("boxes as lines: a binary tree gives the boxes of all its nodes, by depth") {
+TEST_CASE("tree_boxes: a binary tree gives the boxes of all its nodes, by depth") {
     const BuiltTrees built = build_trees_of(test_device(), scene_of({random_mesh(100, 1.0f, 0.2f, 21)}));
     const Scene scene = scene_of({random_mesh(100, 1.0f, 0.2f, 21)});
     BuildOptions options;
@@ -83,7 +83,7 @@ TEST_CASE("boxes as lines: a binary tree gives the boxes of all its nodes, by de
     CHECK(fit(bounds_of(lines_of(scene, options, all_depths).meshes.at(0)), everything));
 }
 
-TEST_CASE("boxes as lines: each box has its twelve edges") {
+TEST_CASE("tree_boxes: each box has its twelve edges") {
     const Scene lines = lines_of(scene_of({random_mesh(1, 1.0f, 1.0f, 22)}), {}, {1, 1});
     const Mesh& mesh = lines.meshes.at(0);
     REQUIRE(mesh.positions.size() == 8);
@@ -98,7 +98,7 @@ TEST_CASE("boxes as lines: each box has its twelve edges") {
     CHECK(edges.size() == 12);
 }
 
-TEST_CASE("boxes as lines: two levels place each mesh's boxes as its instances are, and name them") {
+TEST_CASE("tree_boxes: two levels place each mesh's boxes as its instances are, and name them") {
     Scene scene = scene_of({random_mesh(50, 1.0f, 0.2f, 23), random_mesh(9, 1.0f, 0.2f, 24), random_mesh(5, 1, 1, 25)});
     scene.meshes[0].name = "first";
     scene.instances.pop_back(); // the third mesh has no instance
@@ -129,7 +129,7 @@ TEST_CASE("boxes as lines: two levels place each mesh's boxes as its instances a
     CHECK(box_lines(TreeImage{}, Scene{}, all_depths).meshes.empty());
 }
 
-TEST_CASE("boxes as lines: an oriented box has the corners of its parallelepiped") {
+TEST_CASE("tree_boxes: an oriented box has the corners of its parallelepiped") {
     // |x - 1| <= 2, |y + z| <= 3, |z| <= 4 as axes (1 0 0), (0 1 1), (0 0 1): corners x = 1 -+ 2, z = -+4, y = -+3 - z.
     OrientedNode node{};
     const float first[15] = {1, 0, 0, 2, 3, 4, 1, 0, 0, 0, 1, 0, 0, 1, 1};
@@ -152,7 +152,7 @@ TEST_CASE("boxes as lines: an oriented box has the corners of its parallelepiped
     CHECK(bounds_of(box_lines(tree, scene, {0, 0}).meshes.at(0)) == std::vector<Bounds6>{{-9, -9, -9, 3, 7, 4}});
 }
 
-TEST_CASE("regions of influence areas as lines: twelve edges each") {
+TEST_CASE("tree_boxes: regions of influence areas as lines: twelve edges each") {
     InfluenceArea plane, point;
     plane.half_width = 2;
     plane.far = 3;

@@ -18,7 +18,8 @@
 
 namespace boxwood::test {
 
-/// A ray in the space of the triangles it is tested against: what the documentation of cl/traverse promises, in other words.
+/// A ray in the space of the triangles it is tested against: what the documentation of cl/traverse promises, in other
+/// words.
 struct BruteForce::Local {
     glm::vec3 o, d;
     float t_min;
@@ -62,8 +63,8 @@ struct Plain {
     float ox, oy, oz, dx, dy, dz, scale, depth;
 };
 
-/// Where a ray hits a triangle whose corners have the coordinates ax, ay, az (z last, see Local::axis) ...; t = infinity where
-/// it does not.
+/// Where a ray hits a triangle whose corners have the coordinates ax, ay, az (z last, see Local::axis) ...; t =
+/// infinity where it does not.
 inline Point cross(const Plain& ray, float ax, float ay, float az, float bx, float by, float bz, float cx, float cy,
                    float cz) {
     const float z0 = az - ray.oz, z1 = bz - ray.oz, z2 = cz - ray.oz;
@@ -86,8 +87,8 @@ inline Point cross(const Plain& ray, float ax, float ay, float az, float bx, flo
     return {inside ? within / (sum * ray.depth) : std::numeric_limits<float>::infinity(), v * inverse, w * inverse};
 }
 
-/// Whether no part of the ray up to `limit` comes near the ball: within one and a half times its radius and 2^-12 of its
-/// distance, where roundings of a crossing are some 2^-20 of the distances. False for what is no number.
+/// Whether no part of the ray up to `limit` comes near the ball: within one and a half times its radius and 2^-12 of
+/// its distance, where roundings of a crossing are some 2^-20 of the distances. False for what is no number.
 bool is_far(const glm::dvec3& to_middle, double radius, const glm::dvec3& direction, double limit) {
     const double square = glm::dot(direction, direction), along = glm::dot(to_middle, direction);
     const double distance = glm::dot(to_middle, to_middle), reach = 1.5 * radius + 0x1p-12 * std::sqrt(distance);

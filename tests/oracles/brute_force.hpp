@@ -53,7 +53,8 @@ private:
     std::vector<InstanceRecord> records_; ///< For two levels.
 };
 
-/// Whether a triangle's vertices are on one line: exactly, for coordinates whose last bits are within 2^-60 of the largest.
+/// Whether a triangle's vertices are on one line: exactly, for coordinates whose last bits are within 2^-60 of the
+/// largest.
 bool is_collinear(const std::array<glm::vec3, 3>& triangle);
 
 /// Where the line of `ray` meets a triangle, in double precision: t, u, v. Nothing when the triangle has no area, lies

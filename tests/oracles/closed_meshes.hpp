@@ -12,8 +12,8 @@
 
 namespace boxwood::test {
 
-/// A sphere by stacks and slices, stretched and moved; with instances a turned, stretched and mirrored copy each, all around the same
-/// point, so that every ray meets several surfaces.
+/// A sphere by stacks and slices, stretched and moved; with instances a turned, stretched and mirrored copy each, all
+/// around the same point, so that every ray meets several surfaces.
 struct ClosedKind {
     std::string name;
     std::uint32_t stacks = 16, slices = 32;
@@ -40,7 +40,7 @@ enum class Aim {
     vertices,    ///< Their vertices.
     along_edges, ///< Parallel to an edge.
     axes,        ///< One or two components are zero, of either sign.
-    from_center, ///< As vertices and edges, from the center itself, to one coordinate of which the vertices are symmetric.
+    from_center, ///< As vertices and edges, from the center, to one coordinate of which the vertices are symmetric.
 };
 inline constexpr std::array all_aims = {Aim::anywhere,    Aim::edges, Aim::vertices,
                                         Aim::along_edges, Aim::axes,  Aim::from_center};

@@ -18,7 +18,7 @@ Number dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] 
 
 } // namespace
 
-ExactHit exact_hit(const Ray& ray, const Corners& corners) {
+ExactIntersection exact_intersection(const Ray& ray, const Corners& corners) {
     std::array<Triple, 3> p;
     Triple d;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -27,7 +27,7 @@ ExactHit exact_hit(const Ray& ray, const Corners& corners) {
     }
     const Number u = dot(d, cross(p[2], p[1])), v = dot(d, cross(p[0], p[2])), w = dot(d, cross(p[1], p[0]));
     const Number sum = u + v + w;
-    ExactHit hit;
+    ExactIntersection hit;
     if (sum == 0) return hit;
     hit.inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
     Triple q, r;
@@ -40,7 +40,7 @@ ExactHit exact_hit(const Ray& ray, const Corners& corners) {
 ExactHit exact_hit(const Ray& ray, std::span<const Corners> triangles) {
     ExactHit best;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const ExactHit hit = exact_hit(ray, triangles[i]);
+        const ExactIntersection hit = exact_intersection(ray, triangles[i]);
         if (!hit.inside || !(hit.t > Number{ray.t_min}) || hit.t > Number{ray.t_max}) continue;
         if (best.t < 0 || hit.t < best.t) best = {hit.t, i};
     }

@@ -15,11 +15,11 @@ using Corners = std::array<glm::vec3, 3>;
 
 /// Whether the ray's line meets the triangle, edges and corners included, and the parameter where it meets its plane; 0 where it is
 /// parallel to that.
-struct ExactHit {
+struct ExactIntersection {
     bool inside = false;
     __float128 t = 0;
 };
-ExactHit exact_hit(const Ray& ray, const Corners& corners);
+ExactIntersection exact_intersection(const Ray& ray, const Corners& corners);
 
 /// The closest hit beyond t_min up to t_max; t is negative where there is none.
 struct ExactHit {

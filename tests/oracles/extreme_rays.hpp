@@ -17,7 +17,8 @@ struct ExtremeRays {
     std::vector<Ray> rays;
 };
 
-/// Triangles `aspect` times as long as wide around the origin, and rays that graze them at 1e-3 to 1e-6 from 1 to 1e6 away.
+/// Triangles `aspect` times as long as wide around the origin, and rays that graze them at 1e-3 to 1e-6 from 1 to 1e6
+/// away.
 ExtremeRays sliver_rays(float aspect, std::uint32_t triangles, std::size_t rays, std::uint64_t seed);
 
 /// Triangles whose coordinates have random bits, below 2^59, and rays between such points or at the triangles.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eigenvalues and eigenvectors of small symmetric matrices in double precision, by Jacobi's method until nothing is left.
+// Eigenvalues and eigenvectors of small symmetric matrices in double precision, by Jacobi's method until nothing is
+// left.
 #pragma once
 
 #include <algorithm>

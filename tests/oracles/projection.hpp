@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The projection of a box along the rays of an influence area, in double precision: polygons cut by half planes and hulls.
+// The projection of a box along the rays of an influence area, in double precision: polygons cut by half planes and
+// hulls.
 #pragma once
 
 #include <vector>

@@ -277,8 +277,8 @@ glm::dvec3 transform(const glm::mat4& matrix, const glm::vec3& p) {
     return glm::dvec3(glm::dmat4(matrix) * glm::dvec4(p, 1.0));
 }
 
-/// Room for all roundings of a ray that is moved to object space, on any axis: 64 of what terms there are, for points within 8
-/// radii of the sphere's center.
+/// Room for all roundings of a ray that is moved to object space, on any axis: 64 of what terms there are, for points
+/// within 8 radii of the sphere's center.
 double slack_of(const InstanceRecord& record, const SceneSphere& sphere) {
     glm::dvec3 object, world;
     for (int row = 0; row < 3; ++row) {

@@ -14,8 +14,9 @@ namespace boxwood::test {
 /// gives the deepest tree there is.
 enum class Shape { sah, chain };
 
-/// A valid image of the scene, exact float boxes over the vertices below, conservative ones above. For any oriented kind
-/// three of four nodes have an oriented box with axes at random (see reference_obb.hpp), one in four a sheared one.
+/// A valid image of the scene, exact float boxes over the vertices below, conservative ones above. For any oriented
+/// kind three of four nodes have an oriented box with axes at random (see reference_obb.hpp), one in four a sheared
+/// one.
 TreeImage reference_tree(const Scene& scene, Layout layout, Levels levels, Bounds bounds = Bounds::aabb,
                          Shape shape = Shape::sah);
 

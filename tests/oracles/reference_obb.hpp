@@ -11,8 +11,8 @@
 
 namespace boxwood::test {
 
-/// Rows of axes, rounded to float: a rotation or, when `sheared`, three independent rows of lengths 0.5 to 2 whose matrix
-/// is well conditioned.
+/// Rows of axes, rounded to float: a rotation or, when `sheared`, three independent rows of lengths 0.5 to 2 whose
+/// matrix is well conditioned.
 glm::dmat3 random_rows(Random& random, bool sheared);
 
 /// Row k of `rows` (stored as column k of the matrix) times v.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Oracle of top-down builders: recursion over lists of primitives, every plane tried by going through all of them. In float, with
-// the same formulas as the strategies, so that equal trees are asked for.
+// Oracle of top-down builders: recursion over lists of primitives, every plane tried by going through all of them. In
+// float, with the same formulas as the strategies, so that equal trees are asked for.
 #pragma once
 
 #include <array>

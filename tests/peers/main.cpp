@@ -59,9 +59,9 @@ BuildOptions options_of(const Match& match) {
     return {.levels = Levels::one, .layout = Layout::wide8, .builder = match.builder};
 }
 
-/// Builds by both, alternating, each from triangles that it already holds, by wall clock on both sides. `ready` is up to a tree that
-/// can be traversed; the build alone is without what the device takes to collapse it, but with all waits, which keep ours from
-/// looking faster than it is. The tree that is left in `peer` is that of the match.
+/// Builds by both, alternating, each from triangles that it already holds, by wall clock on both sides. `ready` is up
+/// to a tree that can be traversed; the build alone is without what the device takes to collapse it, but with all
+/// waits, which keep ours from looking faster than it is. The tree that is left in `peer` is that of the match.
 void measure_builds(Device& device, const Scene& flat, EmbreePeer& peer, const Match& match, int runs, Report& report) {
     std::vector<double> theirs, to_volumes, ready;
     BuildReport built;
@@ -102,8 +102,8 @@ void measure_batch(Device& device, const Tree& tree, const EmbreePeer& peer, con
     const std::size_t count = batch.rays.size();
     if (count == 0) return;
     const Buffer<Ray> rays = upload(device, batch.rays, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
-    const Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, count, "flags");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<std::uint32_t> flags = make_buffer<std::uint32_t>(device, count, "flags");
     std::vector<Hit> their_hits(count);
     std::vector<std::uint32_t> their_flags(count);
     std::vector<double> times[6]; // theirs, ours, ours portable: closest, then any

@@ -20,9 +20,9 @@ std::vector<Batch> make_batches(Device& device, const Scene& flat, const Tree& t
     constexpr std::uint64_t seed = 1;
     const Camera camera = flat.cameras.empty() ? default_camera(flat) : flat.cameras.front();
     const Geometry geometry = upload(device, flat);
-    const Buffer<Ray> primary = make_buffer<Ray>(device, side * side, "primary rays");
-    const Buffer<Ray> secondary = make_buffer<Ray>(device, side * side, "secondary rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "primary hits");
+    Buffer<Ray> primary = make_buffer<Ray>(device, side * side, "primary rays");
+    Buffer<Ray> secondary = make_buffer<Ray>(device, side * side, "secondary rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, side * side, "primary hits");
     primary_rays(device, camera, side, side, primary);
     closest_hit(device, tree, primary, hits);
 

@@ -31,7 +31,7 @@ void check_compact(std::size_t size, std::uint32_t percent) {
     std::uint32_t kept = 0;
     for (std::size_t i = 0; i < size; ++i)
         if (keep[i] != 0) expected[kept++] = values[i];
-    compact<T>(device, in, flags, out.view(), count.view());
+    compact(device, in, flags, out.view(), count.view());
     CHECK(count.values()[0] == kept);
     CHECK(same_bits(out.values(), expected));
     CHECK(out.intact());
@@ -66,13 +66,13 @@ TEST_CASE("compact: more than 2^24 elements") {
 
 TEST_CASE("compact: refuses what does not fit") {
     Device& device = test_device();
-    const auto in = make_buffer<float>(device, 8, "in");
-    const auto flags = make_buffer<std::uint32_t>(device, 8, "flags");
-    const auto out = make_buffer<float>(device, 8, "out");
-    const auto count = make_buffer<std::uint32_t>(device, 1, "count");
-    CHECK_THROWS_AS(compact<float>(device, in, flags.prefix(7), out, count), InputError);
-    CHECK_THROWS_AS(compact<float>(device, in, flags, out.prefix(7), count), InputError);
-    CHECK_THROWS_AS(compact<float>(device, in, flags, out, count.prefix(0)), InputError);
+    auto in = make_buffer<float>(device, 8, "in");
+    auto flags = make_buffer<std::uint32_t>(device, 8, "flags");
+    auto out = make_buffer<float>(device, 8, "out");
+    auto count = make_buffer<std::uint32_t>(device, 1, "count");
+    CHECK_THROWS_AS(compact(device, in, flags.prefix(7), out, count), InputError);
+    CHECK_THROWS_AS(compact(device, in, flags, out.prefix(7), count), InputError);
+    CHECK_THROWS_AS(compact(device, in, flags, out, count.prefix(0)), InputError);
 }
 
 TEST_CASE("compact: memory does not depend on the number of threads") {
@@ -82,8 +82,8 @@ TEST_CASE("compact: memory does not depend on the number of threads") {
         CAPTURE(size);
         const auto in = upload(device, random_values<float>(size, 13), "in");
         const auto flags = upload(device, random_values<std::uint32_t>(size, 14), "flags");
-        const auto out = make_buffer<float>(device, size, "out");
-        const auto count = make_buffer<std::uint32_t>(device, 1, "count");
-        check_memory_by_compute_units([&] { compact<float>(device, in, flags, out, count); });
+        auto out = make_buffer<float>(device, size, "out");
+        auto count = make_buffer<std::uint32_t>(device, 1, "count");
+        check_memory_by_compute_units([&] { compact(device, in, flags, out, count); });
     }
 }

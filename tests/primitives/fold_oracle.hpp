@@ -49,8 +49,8 @@ struct Folded {
             if constexpr (std::is_floating_point_v<S>) magnitude += std::abs(wide);
         }
     }
-    /// Minimum, maximum and integers: exact. Sums of floats: within 100 roundings of the sum of magnitudes, which a fold
-    /// of depth below 100 cannot pass (tiles of 1024 in rows: at most 16 + 63 + 6 additions deep each level).
+    /// Minimum, maximum and integers: exact. Sums of floats: within 100 roundings of the sum of magnitudes, which a
+    /// fold of depth below 100 cannot pass (tiles of 1024 in rows: at most 16 + 63 + 6 additions deep each level).
     bool accepts(S actual, Operator op) const {
         if constexpr (std::is_floating_point_v<S>) {
             if (op == Operator::sum) {

@@ -26,7 +26,7 @@ void check_gather(std::size_t in_size, std::size_t size) {
     const auto in = upload(device, values, "in");
     const auto places = upload(device, indices, "indices");
     const Guarded<T> out(device, size);
-    gather<T>(device, in, places, out.view());
+    gather(device, in, places, out.view());
     CHECK(same_bits(out.values(), expected));
     CHECK(out.intact());
 }
@@ -53,8 +53,8 @@ TEST_CASE("gather: more than 2^24 elements") {
 
 TEST_CASE("gather: refuses what does not fit") {
     Device& device = test_device();
-    const auto in = make_buffer<float>(device, 8, "in");
-    const auto indices = make_buffer<std::uint32_t>(device, 8, "indices");
-    const auto out = make_buffer<float>(device, 7, "out");
-    CHECK_THROWS_AS(gather<float>(device, in, indices, out), InputError);
+    auto in = make_buffer<float>(device, 8, "in");
+    auto indices = make_buffer<std::uint32_t>(device, 8, "indices");
+    auto out = make_buffer<float>(device, 7, "out");
+    CHECK_THROWS_AS(gather(device, in, indices, out), InputError);
 }

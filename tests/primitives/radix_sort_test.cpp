@@ -48,8 +48,8 @@ void check_sort(const std::vector<Key>& keys, int first_bit, int last_bit) {
     std::iota(positions.begin(), positions.end(), 0u);
     Guarded<Key> sorted_keys(device, keys.size());
     Guarded<std::uint32_t> sorted_values(device, keys.size());
-    write<Key>(device, keys, sorted_keys.view());
-    write<std::uint32_t>(device, positions, sorted_values.view());
+    write(device, keys, sorted_keys.view());
+    write(device, positions, sorted_values.view());
     radix_sort(device, sorted_keys.view(), sorted_values.view(), first_bit, last_bit);
     CHECK(same_bits(sorted_keys.values(), expected.keys));
     CHECK(same_bits(sorted_values.values(), expected.values));
@@ -105,7 +105,7 @@ TEST_CASE("radix_sort: more than 2^24 pairs") {
         positions[i] = i;
     }
     const auto sorted_keys = upload(device, keys, "keys"), sorted_values = upload(device, positions, "values");
-    radix_sort<std::uint32_t>(device, sorted_keys, sorted_values, 0, 25);
+    radix_sort(device, sorted_keys, sorted_values, 0, 25);
     const std::vector<std::uint32_t> values = download(device, sorted_values), result = download(device, sorted_keys);
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < size; ++i) wrong += result[i] != i || keys[values[i]] != i;
@@ -114,15 +114,15 @@ TEST_CASE("radix_sort: more than 2^24 pairs") {
 
 TEST_CASE("radix_sort: refuses what does not fit") {
     Device& device = test_device();
-    const auto keys = make_buffer<std::uint32_t>(device, 8, "keys");
-    const auto values = make_buffer<std::uint32_t>(device, 7, "values");
+    auto keys = make_buffer<std::uint32_t>(device, 8, "keys");
+    auto values = make_buffer<std::uint32_t>(device, 7, "values");
     CHECK_THROWS_AS(radix_sort(device, keys.view(), values.view()), InputError);
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), -1, 8), InputError);
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), 9, 8), InputError);
     CHECK_THROWS_AS(radix_sort(device, keys.view(), keys.view(), 0, 33), InputError);
 }
 
-TEST_CASE_TEMPLATE("radix sort: memory does not depend on the number of threads", Key, std::uint32_t, std::uint64_t) {
+TEST_CASE_TEMPLATE("radix_sort: memory does not depend on the number of threads", Key, std::uint32_t, std::uint64_t) {
     Device& device = test_device();
     // Slices as short as digits allow, and so many keys that their counts take three levels of tiles to scan.
     for (const std::size_t size : {5001u, 300001u, 6000001u}) {
@@ -132,7 +132,7 @@ TEST_CASE_TEMPLATE("radix sort: memory does not depend on the number of threads"
             CAPTURE(bits);
             const auto keys = upload(device, random_values<Key>(size, 12), "keys");
             const auto values = upload(device, std::vector<std::uint32_t>(size), "values");
-            check_memory_by_compute_units([&] { radix_sort<Key>(device, keys, values, 0, bits); });
+            check_memory_by_compute_units([&] { radix_sort(device, keys, values, 0, bits); });
         }
     }
 }

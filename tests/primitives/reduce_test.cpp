@@ -17,7 +17,7 @@ std::vector<T> reduced(const std::vector<T>& values, Operator op) {
     Device& device = test_device();
     const Buffer<T> in = upload(device, values, "values");
     const Guarded<T> out(device, 1);
-    reduce<T>(device, in, op, out.view());
+    reduce(device, in, op, out.view());
     CHECK(out.intact());
     return out.values();
 }
@@ -69,8 +69,8 @@ TEST_CASE("reduce: the only element that matters is found wherever it is") {
 
 TEST_CASE("reduce: refuses what does not fit") {
     Device& device = test_device();
-    const auto boxes = make_buffer<Aabb>(device, 2, "boxes");
-    const auto numbers = make_buffer<float>(device, 2, "numbers");
-    CHECK_THROWS_AS(reduce<Aabb>(device, boxes, Operator::min, boxes.view()), InputError);
-    CHECK_THROWS_AS(reduce<float>(device, numbers, Operator::sum, BufferView<float>()), InputError);
+    auto boxes = make_buffer<Aabb>(device, 2, "boxes");
+    auto numbers = make_buffer<float>(device, 2, "numbers");
+    CHECK_THROWS_AS(reduce(device, boxes, Operator::min, boxes.view()), InputError);
+    CHECK_THROWS_AS(reduce(device, numbers, Operator::sum, BufferView<float>()), InputError);
 }

@@ -20,9 +20,9 @@ std::vector<T> scanned(const std::vector<T>& values, Operator op, bool inclusive
     const Buffer<T> in = upload(device, values, "values");
     const Guarded<T> out(device, values.size());
     if (inclusive)
-        inclusive_scan<T>(device, in, op, out.view());
+        inclusive_scan(device, in, op, out.view());
     else
-        exclusive_scan<T>(device, in, op, out.view());
+        exclusive_scan(device, in, op, out.view());
     CHECK(out.intact());
     return out.values();
 }
@@ -86,7 +86,8 @@ TEST_CASE_TEMPLATE("scan: every type, operator and size", T, std::int32_t, std::
     }
 }
 
-// From several tiles up to three levels of them: within a step, from tile to tile, and from what is before a tile of tiles.
+// From several tiles up to three levels of them: within a step, from tile to tile, and from what is before a tile of
+// tiles.
 TEST_CASE_TEMPLATE("scan: sums of what is not negative never fall", T, float, cl_float4) {
     std::vector<std::size_t> sizes = boundary_sizes();
     if (!small_sizes()) sizes.push_back((std::size_t{1} << 24) / (sizeof(T) / sizeof(float)) + 4099);
@@ -134,7 +135,7 @@ TEST_CASE("scan: in place") {
     Device& device = test_device();
     const std::vector<std::uint32_t> values = random_values<std::uint32_t>(5001, 6);
     const auto buffer = upload(device, values, "values");
-    exclusive_scan<std::uint32_t>(device, buffer, Operator::sum, buffer);
+    exclusive_scan(device, buffer, Operator::sum, buffer);
     check_scan(values, download(device, buffer), Operator::sum, false);
 }
 
@@ -146,8 +147,8 @@ TEST_CASE("scan: more than 2^24 elements") {
 
 TEST_CASE("scan: refuses what does not fit") {
     Device& device = test_device();
-    const auto in = make_buffer<float>(device, 8, "in");
-    const auto out = make_buffer<float>(device, 7, "out");
-    CHECK_THROWS_AS(exclusive_scan<float>(device, in, Operator::sum, out), InputError);
-    CHECK_THROWS_AS(inclusive_scan<float>(device, in, Operator::sum, out), InputError);
+    auto in = make_buffer<float>(device, 8, "in");
+    auto out = make_buffer<float>(device, 7, "out");
+    CHECK_THROWS_AS(exclusive_scan(device, in, Operator::sum, out), InputError);
+    CHECK_THROWS_AS(inclusive_scan(device, in, Operator::sum, out), InputError);
 }

@@ -36,7 +36,7 @@ void check_scatter(std::size_t size, std::size_t room) {
     const Guarded<T> out(device, room);
     std::vector<T> expected = out.values(); // what is not named by an index stays
     for (std::size_t i = 0; i < size; ++i) expected[indices[i]] = values[i];
-    scatter<T>(device, in, places, out.view());
+    scatter(device, in, places, out.view());
     CHECK(same_bits(out.values(), expected));
     CHECK(out.intact());
 }
@@ -64,7 +64,7 @@ TEST_CASE("scatter: more than 2^24 elements") {
     for (std::uint32_t i = 0; i < size; ++i) places[i] = size - 1 - i;
     const auto in = upload(device, places, "in");
     const Guarded<std::uint32_t> out(device, size);
-    scatter<std::uint32_t>(device, in, in, out.view());
+    scatter(device, in, in, out.view());
     const std::vector<std::uint32_t> values = out.values();
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < size; ++i) wrong += values[i] != i;
@@ -74,9 +74,9 @@ TEST_CASE("scatter: more than 2^24 elements") {
 
 TEST_CASE("scatter: refuses what does not fit") {
     Device& device = test_device();
-    const auto in = make_buffer<float>(device, 8, "in");
-    const auto indices = make_buffer<std::uint32_t>(device, 8, "indices");
-    const auto out = make_buffer<float>(device, 8, "out");
-    CHECK_THROWS_AS(scatter<float>(device, in, indices.prefix(7), out), InputError);
-    CHECK_THROWS_AS(scatter<float>(device, in, indices, out.prefix(7)), InputError);
+    auto in = make_buffer<float>(device, 8, "in");
+    auto indices = make_buffer<std::uint32_t>(device, 8, "indices");
+    auto out = make_buffer<float>(device, 8, "out");
+    CHECK_THROWS_AS(scatter(device, in, indices.prefix(7), out), InputError);
+    CHECK_THROWS_AS(scatter(device, in, indices, out.prefix(7)), InputError);
 }

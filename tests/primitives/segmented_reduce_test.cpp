@@ -20,7 +20,7 @@ std::vector<T> reduced(const std::vector<T>& values, const Offsets& offsets, Ope
     const Buffer<T> in = upload(device, values, "values");
     const auto borders = upload(device, offsets, "offsets");
     const Guarded<T> out(device, offsets.size() - 1);
-    segmented_reduce<T>(device, in, borders, op, out.view());
+    segmented_reduce(device, in, borders, op, out.view());
     CHECK(out.intact());
     return out.values();
 }
@@ -111,10 +111,10 @@ TEST_CASE_TEMPLATE("segmented_reduce: the tuning does not change a bit", T, floa
 
 TEST_CASE("segmented_reduce: refuses what does not fit") {
     Device& device = test_device();
-    const auto in = make_buffer<Aabb>(device, 8, "in");
-    const auto offsets = make_buffer<std::uint32_t>(device, 3, "offsets");
-    CHECK_THROWS_AS(segmented_reduce<Aabb>(device, in, offsets, Operator::sum, in), InputError);
-    CHECK_THROWS_AS(segmented_reduce<Aabb>(device, in, offsets, Operator::max, in.prefix(2)), InputError);
-    CHECK_THROWS_AS(segmented_reduce<Aabb>(device, in, BufferView<const std::uint32_t>(), Operator::sum, in.prefix(0)),
+    auto in = make_buffer<Aabb>(device, 8, "in");
+    auto offsets = make_buffer<std::uint32_t>(device, 3, "offsets");
+    CHECK_THROWS_AS(segmented_reduce(device, in, offsets, Operator::sum, in), InputError);
+    CHECK_THROWS_AS(segmented_reduce(device, in, offsets, Operator::max, in.prefix(2)), InputError);
+    CHECK_THROWS_AS(segmented_reduce(device, in, BufferView<const std::uint32_t>(), Operator::sum, in.prefix(0)),
                     InputError);
 }

@@ -81,8 +81,8 @@ double mean(const std::vector<float>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// The mean, over the cosine-distributed rays of a point at distance `x` from a wall of infinite width and height, of 1 - e^-t. By
-/// the midpoint rule over the hemisphere, 1000 x 1000.
+/// The mean, over the cosine-distributed rays of a point at distance `x` from a wall of infinite width and height, of 1
+/// - e^-t. By the midpoint rule over the hemisphere, 1000 x 1000.
 double open_beside_wall(double x) {
     constexpr int steps = 1000;
     double sum = 0.0;
@@ -117,7 +117,8 @@ TEST_CASE("ambient: nothing occludes a plane") {
 }
 
 TEST_CASE("ambient: occlusion beside a wall is the integral of 1 - e^-t") {
-    // The wall x = 0 is 2000 wide and 1000 high, endless for t in units of 1. A pixel column at x = 0.25, thin against it.
+    // The wall x = 0 is 2000 wide and 1000 high, endless for t in units of 1. A pixel column at x = 0.25, thin against
+    // it.
     Scene scene = floor_scene();
     add_square(scene, {0, 0, 0}, {0, 0, 1000}, {0, 1000, 0}, {1, 1, 1});
     const std::uint32_t samples = small_sizes() ? 16 : 256;
@@ -148,8 +149,9 @@ TEST_CASE("ambient: a point light on a plane is n . l / r^2, with a shadow") {
         const double square = x * x + z * z + 4.0;
         const double cosine = 2.0 / std::sqrt(square);
         const double expected = 0.5 / pi * 10 * cosine / square;
-        // Some 64 roundings: of the point, by which it changes no faster than the point does, and of the formula. And the clearance:
-        // the point is 20 roundoffs of the triangle's extent, 8, nearer to a light that is at least 2 away.
+        // Some 64 roundings: of the point, by which it changes no faster than the point does, and of the formula. And
+        // the clearance: the point is 20 roundoffs of the triangle's extent, 8, nearer to a light that is at least 2
+        // away.
         CHECK(std::abs(plane(image, "direct.R")[i] - expected) < (64 + 160) * 0x1p-24 * expected);
         CHECK(plane(image, "R")[i] == plane(image, "direct.R")[i]);
         CHECK(plane(image, "ambient.R")[i] == 0.0f);
@@ -167,7 +169,8 @@ TEST_CASE("ambient: a point light on a plane is n . l / r^2, with a shadow") {
 }
 
 TEST_CASE("ambient: direct light is that of the path tracer on Lambert surfaces") {
-    // A wall, two lights of different power and a sun: the path tracer's direct light of 1 bounce, as an independent estimate.
+    // A wall, two lights of different power and a sun: the path tracer's direct light of 1 bounce, as an independent
+    // estimate.
     Scene scene = floor_scene();
     add_square(scene, {-1, 0, 0}, {0, 0, 2}, {0, 1, 0}, {0.8f, 0.8f, 0.8f});
     for (const float x : {0.5f, 2.0f}) {

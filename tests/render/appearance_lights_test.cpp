@@ -24,7 +24,8 @@ std::vector<double> strengths(const Appearance& appearance) {
 
 } // namespace
 
-TEST_CASE("emitting triangles are lights in world space, of instances that mirror and stretch, too") {
+TEST_CASE(
+    "appearance_lights: emitting triangles are lights in world space, of instances that mirror and stretch, too") {
     Material lamp = plain_material();
     lamp.emission = {1, 2, 6};
     Scene scene = one_square(lamp);
@@ -72,7 +73,8 @@ TEST_CASE("emitting triangles are lights in world space, of instances that mirro
     for (std::size_t i = 0; i < wanted.size(); ++i) CHECK(found[i] == doctest::Approx(wanted[i]).epsilon(1e-5));
 }
 
-TEST_CASE("triangles without area or light are no lights; double-sided ones shine both ways; spots within their cone") {
+TEST_CASE("appearance_lights: triangles without area or light are no lights; double-sided ones shine both ways; spots "
+          "within their cone") {
     Material lamp = plain_material();
     lamp.emission = {1, 1, 1};
     lamp.double_sided = true;
@@ -103,7 +105,7 @@ TEST_CASE("triangles without area or light are no lights; double-sided ones shin
     CHECK(nodes[4].spread_cosine == -1.0f);
 }
 
-TEST_CASE("a black emission texture makes no lights, and a partly black one weaker ones") {
+TEST_CASE("appearance_lights: a black emission texture makes no lights, and a partly black one weaker ones") {
     Material lamp = plain_material();
     lamp.emission = {1, 1, 1};
     lamp.emission_texture.texture = 0;

@@ -10,7 +10,7 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("render");
 
-TEST_CASE("shading requires what materials and meshes in use ask for, and nothing else") {
+TEST_CASE("appearance: shading requires what materials and meshes in use ask for, and nothing else") {
     Scene scene = one_square(plain_material());
     CHECK(shading_requirements(Scene{}).attribute_floats() == 0);
     CHECK_FALSE(shading_requirements(scene).specular);
@@ -45,7 +45,7 @@ TEST_CASE("shading requires what materials and meshes in use ask for, and nothin
     CHECK(shading_requirements(scene).punctual);
 }
 
-TEST_CASE("every required word has its reason, which names the element that asks first") {
+TEST_CASE("appearance: every required word has its reason, which names the element that asks first") {
     Scene scene = one_square(plain_material());
     CHECK(reasons(scene, {}).empty());
     CHECK(reasons(Scene{}, {}).empty());
@@ -82,7 +82,7 @@ TEST_CASE("every required word has its reason, which names the element that asks
     CHECK(because("alpha") == "nothing");
 }
 
-TEST_CASE("attributes are interleaved, with zeros and white where a mesh lacks them") {
+TEST_CASE("appearance: attributes are interleaved, with zeros and white where a mesh lacks them") {
     Scene scene = one_square(plain_material());
     Mesh rich = square();
     rich.normals.assign(4, {0, 0, 1});
@@ -112,7 +112,7 @@ TEST_CASE("attributes are interleaved, with zeros and white where a mesh lacks t
     CHECK(materials[0].textures[BOXWOOD_BASE_COLOR].texture == BOXWOOD_NONE);
 }
 
-TEST_CASE("there are two sets of texture coordinates at most") {
+TEST_CASE("appearance: there are two sets of texture coordinates at most") {
     const Scene scene = one_square(plain_material());
     ShadingRequirements needs = shading_requirements(scene);
     std::vector<std::string> warnings;
@@ -122,7 +122,7 @@ TEST_CASE("there are two sets of texture coordinates at most") {
     CHECK_THROWS_AS(upload_appearance(test_device(), scene, needs, warnings), InputError);
 }
 
-TEST_CASE("of one material in use there is one record and no list, and an empty scene has nothing") {
+TEST_CASE("appearance: of one material in use there is one record and no list, and an empty scene has nothing") {
     Scene scene = one_square(plain_material());
     scene.materials.insert(scene.materials.begin(), Material{});
     scene.meshes[0].materials = {1, 1};
@@ -137,7 +137,7 @@ TEST_CASE("of one material in use there is one record and no list, and an empty 
     CHECK(appearance_of(Scene{}).materials.size() == 1);
 }
 
-TEST_CASE("made tangents follow growing u, whatever the size, and v's side decides their sign") {
+TEST_CASE("appearance: made tangents follow growing u, whatever the size, and v's side decides their sign") {
     Material material;
     material.normal_texture.texture = 0;
     for (const float scale : {1.0f, 0x1p-40f, 0x1p40f}) {
@@ -173,7 +173,7 @@ TEST_CASE("made tangents follow growing u, whatever the size, and v's side decid
     }
 }
 
-TEST_CASE("tangents of a mesh stay, and are made where they are zero") {
+TEST_CASE("appearance: tangents of a mesh stay, and are made where they are zero") {
     Material material;
     material.normal_texture.texture = 0;
     Scene scene = one_square(material);
@@ -193,7 +193,7 @@ TEST_CASE("tangents of a mesh stay, and are made where they are zero") {
     CHECK(tangent(3) == glm::vec4(0, 0, 1, 1));
 }
 
-TEST_CASE("the texture's transform turns made tangents") {
+TEST_CASE("appearance: the texture's transform turns made tangents") {
     Material material;
     material.normal_texture.texture = 0;
     // u' = v, v' = -u: u' grows along y.

@@ -20,8 +20,9 @@ double linear_to_srgb(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * st
 
 } // namespace
 
-TEST_CASE_TEMPLATE("levels of detail are means by area, in linear light, of pictures of any size and depth", Code,
-                   std::uint8_t, std::uint16_t) {
+TEST_CASE_TEMPLATE(
+    "appearance_textures: levels of detail are means by area, in linear light, of pictures of any size and depth", Code,
+    std::uint8_t, std::uint16_t) {
     constexpr std::size_t bits = 8 * sizeof(Code), in_a_word = 32 / bits;
     constexpr double largest = std::numeric_limits<Code>::max();
     // Powers of two, odd, one across, and one texel.
@@ -70,7 +71,7 @@ TEST_CASE_TEMPLATE("levels of detail are means by area, in linear light, of pict
     }
 }
 
-TEST_CASE("a picture of 16 bits takes two words a texel, beside others that take one") {
+TEST_CASE("appearance_textures: a picture of 16 bits takes two words a texel, beside others that take one") {
     Material material;
     material.base_color_texture.texture = 0;
     material.normal_texture.texture = 1;
@@ -101,7 +102,7 @@ TEST_CASE("a picture of 16 bits takes two words a texel, beside others that take
     CHECK(!shading_requirements(scene).wide_texels); // no texture in use shows it
 }
 
-TEST_CASE("a picture is stored once per encoding, a record once per texture and encoding") {
+TEST_CASE("appearance_textures: a picture is stored once per encoding, a record once per texture and encoding") {
     Material material;
     material.base_color_texture.texture = 0;
     material.occlusion_texture.texture = 0;
@@ -142,7 +143,7 @@ TEST_CASE("a picture is stored once per encoding, a record once per texture and 
     CHECK(download(test_device(), untextured.materials)[0].textures[0].texture == BOXWOOD_NONE);
 }
 
-TEST_CASE("pictures that cannot be read are grey, or flat, and named") {
+TEST_CASE("appearance_textures: pictures that cannot be read are grey, or flat, and named") {
     Material material;
     material.base_color_texture.texture = 0;
     material.normal_texture.texture = 0;

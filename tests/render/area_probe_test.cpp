@@ -66,7 +66,7 @@ std::uint32_t squares() { return small_sizes() ? 4 : 64; }
 
 } // namespace
 
-TEST_CASE("area probe: a camera's rays come from its eye, or are parallel") {
+TEST_CASE("area_probe: a camera's rays come from its eye, or are parallel") {
     for (const double scale : {1.0, 0x1p-40, 0x1p40}) {
         CAPTURE(scale);
         const Scene scene = floor_of(squares(), scale);
@@ -95,7 +95,7 @@ TEST_CASE("area probe: a camera's rays come from its eye, or are parallel") {
     }
 }
 
-TEST_CASE("area probe: shadow rays end at the light") {
+TEST_CASE("area_probe: shadow rays end at the light") {
     Scene scene = floor_of(squares());
     scene.instances.push_back(scene.instances[0]); // a ceiling, so that the light is off the floor
     scene.instances[1].transform[3] = glm::vec4(0, 4, 0, 1);
@@ -108,7 +108,7 @@ TEST_CASE("area probe: shadow rays end at the light") {
     CHECK(found->count == 256);
 }
 
-TEST_CASE("area probe: areas are kept where their trees cost less") {
+TEST_CASE("area_probe: areas are kept where their trees cost less") {
     // Through the middle of the floor, which no sliver crosses.
     std::vector<ProbedArea> probed = probe_areas(test_device(), cluttered_floor(), camera_above(2, 1.0 / 32), {});
     const ProbedArea* found = of_rays(probed, "primary");
@@ -124,7 +124,7 @@ TEST_CASE("area probe: areas are kept where their trees cost less") {
     for (const ProbedArea& each : probed) CHECK((!each.kept || each.local_cost < each.global_cost));
 }
 
-TEST_CASE("area probe: the same every time, and by every builder") {
+TEST_CASE("area_probe: the same every time, and by every builder") {
     const Scene scene = floor_of(squares());
     for (const Builder builder : {Builder::lbvh, Builder::sah, Builder::pah, Builder::blend}) {
         CAPTURE(std::string(name(builder)));
@@ -149,7 +149,7 @@ TEST_CASE("area probe: the same every time, and by every builder") {
     }
 }
 
-TEST_CASE("area probe: scenes without triangles, out of sight, and at the ends of coordinates") {
+TEST_CASE("area_probe: scenes without triangles, out of sight, and at the ends of coordinates") {
     CHECK(probe_areas(test_device(), Scene(), Camera(), {}).empty());
     Camera up = camera_above(2);
     up.to_world = glm::mat4(1.0f);
@@ -163,7 +163,7 @@ TEST_CASE("area probe: scenes without triangles, out of sight, and at the ends o
     }
 }
 
-TEST_CASE("areas are judged one by one, those that light nothing among them") {
+TEST_CASE("area_probe: areas are judged one by one, those that light nothing among them") {
     const Scene scene = cluttered_floor();
     InfluenceArea window;
     window.origin = {0.25, 1, 0.25};
@@ -186,8 +186,8 @@ TEST_CASE("areas are judged one by one, those that light nothing among them") {
         CHECK(judged[i].area.share == areas[i].share);
         CHECK(judged[i].rays == "shadow");
         if (i > 0) CHECK(judged[i].count == 256);
-        // Nothing is between the floor and where the area's rays leave, so that local trees answer no ray: they are not kept,
-        // though there is less to test.
+        // Nothing is between the floor and where the area's rays leave, so that local trees answer no ray: they are not
+        // kept, though there is less to test.
         if (i > 0) CHECK(judged[i].local_cost < judged[i].global_cost);
         CHECK(!judged[i].kept);
     }

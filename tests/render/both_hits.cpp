@@ -38,9 +38,8 @@ BothHits both_hits(Device& device, const Scene& scene, const BuildOptions& optio
     const Geometry geometry = upload(device, scene);
     const Rasteriser rasteriser(device, scene, tree, geometry);
     const Buffer<CameraRecord> record = upload_camera(device, camera, width, height, jitter);
-    const Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
-    const Buffer<Hit> traced = make_buffer<Hit>(device, pixels, "hits"),
-                      drawn = make_buffer<Hit>(device, pixels, "hits");
+    Buffer<Ray> rays = make_buffer<Ray>(device, pixels, "rays");
+    Buffer<Hit> traced = make_buffer<Hit>(device, pixels, "hits"), drawn = make_buffer<Hit>(device, pixels, "hits");
     primary_rays(device, record, 0, rays);
     closest_hit(device, tree, rays, traced);
     rasteriser.draw(record, width, height, 0, rays, drawn);

@@ -94,7 +94,7 @@ std::vector<Matter> mixtures(const glm::vec3& color) {
 
 } // namespace
 
-TEST_CASE("bsdf: narrow lobes are drawn with the density that is told, which integrates to 1") {
+TEST_CASE("bsdf_lobes: narrow lobes are drawn with the density that is told, which integrates to 1") {
     const int across = small_sizes() ? 16 : 128;
     const std::uint32_t count = small_sizes() ? 256 : 1 << 16;
     for (const double alpha : {0x1p-13, 1e-3, 0.05})
@@ -125,7 +125,7 @@ TEST_CASE("bsdf: narrow lobes are drawn with the density that is told, which int
         }
 }
 
-TEST_CASE("bsdf: values are the specification's, whatever metallic, roughness and specular are") {
+TEST_CASE("bsdf_lobes: values are the specification's, whatever metallic, roughness and specular are") {
     const int across = small_sizes() ? 4 : 16;
     std::vector<Seen> surfaces;
     std::vector<glm::vec3> directions;
@@ -161,7 +161,7 @@ TEST_CASE("bsdf: values are the specification's, whatever metallic, roughness an
     CHECK(wrong == 0);
 }
 
-TEST_CASE("bsdf: mixtures of lobes return what single scattering does") {
+TEST_CASE("bsdf_lobes: mixtures of lobes return what single scattering does") {
     const int across = small_sizes() ? 64 : 256;
     const std::uint32_t count = small_sizes() ? 256 : 1 << 14;
     for (const glm::vec3& color : {glm::vec3(1.0f), glm::vec3(0.9f, 0.5f, 0.2f)})
@@ -177,7 +177,8 @@ TEST_CASE("bsdf: mixtures of lobes return what single scattering does") {
                 const glm::dvec3 expected = albedo(m, cosine, across);
                 for (int c = 0; c < 3; ++c) {
                     CHECK(std::abs(mean[c] - expected[c]) < (small_sizes() ? 0.06 : 3e-3));
-                    // The specification's coat over a Lambert lobe gives more than it gets: 1.44 for white at cosine 0.1.
+                    // The specification's coat over a Lambert lobe gives more than it gets: 1.44 for white at cosine
+                    // 0.1.
                     if (m.metallic == 1.0f || m.specular == 0.0f) CHECK(expected[c] < 1.0 + 1e-6);
                 }
             }

@@ -18,8 +18,8 @@ INLINE void load_bsdf(global const float* materials, uint count, uint at, Vector
 }
 
 /// Value and density of each direction.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-evaluate_test(global const float* materials, global const float* directions, global float* results, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void evaluate_test(global const float* materials, global const float* directions, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Bsdf bsdf;
@@ -34,8 +34,8 @@ evaluate_test(global const float* materials, global const float* directions, glo
 }
 
 /// Direction, value and density drawn with each point.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-sample_test(global const float* materials, global const float* points, global float* results, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void sample_test(global const float* materials, global const float* points, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     Bsdf bsdf;

@@ -83,7 +83,7 @@ TEST_CASE("camera: a jitter moves all rays by the same part of a pixel") {
         const glm::dmat4 to_world(camera.to_world);
         const glm::dvec3 right = glm::normalize(glm::dvec3(to_world[0])), up = glm::normalize(glm::dvec3(to_world[1])),
                          back = glm::normalize(glm::dvec3(to_world[2]));
-        const Buffer<Ray> rays = make_buffer<Ray>(test_device(), width * height, "rays");
+        Buffer<Ray> rays = make_buffer<Ray>(test_device(), width * height, "rays");
         primary_rays(test_device(), upload_camera(test_device(), camera, width, height, jitter), 0, rays);
         const std::vector<Ray> found = download(test_device(), rays);
         const double half = perspective ? std::tan(0.5 * double(camera.vertical_fov)) : double(camera.half_height);
@@ -107,8 +107,8 @@ TEST_CASE("camera: the jitters of a sequence cover the pixel") {
         for (const std::uint64_t seed : {std::uint64_t{0}, test_seed()}) {
             options.sampler = sampler;
             options.seed = seed;
-            // Any 2^k points that follow one another from a multiple of 2^k: one in each box of 2^-k of the pixel's area,
-            // whatever its shape (a (0, 2)-sequence in base 2). A digital shift moves boxes onto boxes.
+            // Any 2^k points that follow one another from a multiple of 2^k: one in each box of 2^-k of the pixel's
+            // area, whatever its shape (a (0, 2)-sequence in base 2). A digital shift moves boxes onto boxes.
             for (const std::uint32_t k : {4u, 8u})
                 for (const std::uint32_t first : {0u, 3u << k})
                     for (std::uint32_t wide = 0; wide <= k; ++wide) {
@@ -191,7 +191,7 @@ TEST_CASE("camera: one pixel looks straight ahead, no pixel gives no ray, a wron
     const std::vector<Ray> one = make_rays(Camera{}, 1, 1);
     CHECK(vector(one[0].direction) == glm::dvec3(0, 0, -1));
     CHECK(make_rays(Camera{}, 0, 5).empty());
-    const Buffer<Ray> rays = make_buffer<Ray>(test_device(), 6, "rays");
+    Buffer<Ray> rays = make_buffer<Ray>(test_device(), 6, "rays");
     CHECK_THROWS_AS(primary_rays(test_device(), Camera{}, 2, 2, rays), InputError);
     CHECK_THROWS_AS(primary_rays(test_device(), Camera{}, (1u << 23) + 1, 0, rays.prefix(0)), InputError);
 }

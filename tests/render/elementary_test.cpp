@@ -25,15 +25,15 @@ Values values_of(const std::vector<float>& numbers) {
     Device& device = test_device();
     const Guarded<float> logarithms(device, numbers.size()), fractions(device, numbers.size());
     launch(device, {"render/elementary_test.cl", "elementary_test"}, "elementary functions", numbers.size(),
-           upload<float>(device, numbers, "numbers"), logarithms.view(), fractions.view(),
+           upload(device, numbers, "numbers"), logarithms.view(), fractions.view(),
            static_cast<std::uint32_t>(numbers.size()));
     CHECK(logarithms.intact());
     CHECK(fractions.intact());
     return {logarithms.values(), fractions.values()};
 }
 
-/// Positive floats with `steps` per power of two, from the smallest denormal to the largest, both sides of every power of two, and
-/// where polynomials change.
+/// Positive floats with `steps` per power of two, from the smallest denormal to the largest, both sides of every power
+/// of two, and where polynomials change.
 std::vector<float> positive_floats(std::uint32_t steps) {
     std::vector<float> numbers;
     const std::uint32_t stride = (1u << 23) / steps;

@@ -6,11 +6,12 @@
 #include "bounds/lanes_of.h"
 #include "render/environment.h"
 
-/// For directions (3 components) their radiance and density (4); for points (2) a direction, its density and its radiance (7).
-/// Component k of record i is at k * count + i, and count a multiple of LANES. `normal` is +y.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void environment_test(
-    global const EnvironmentRecord* record, global const float* texels, global const float* rows, global const float* columns,
-    global const float* directions, global const float* points, uint count, global float* out, global float* drawn) {
+/// For directions (3 components) their radiance and density (4); for points (2) a direction, its density and its
+/// radiance (7). Component k of record i is at k * count + i, and count a multiple of LANES. `normal` is +y.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void environment_test(global const EnvironmentRecord* record, global const float* texels, global const float* rows,
+                      global const float* columns, global const float* directions, global const float* points,
+                      uint count, global float* out, global float* drawn) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
 #if ENVIRONMENT == 2

@@ -311,7 +311,8 @@ TEST_CASE("environment: light and density at the poles and beside them") {
         const double relative = mean > 0 ? luminance(light) / mean : 1;
         CHECK(std::abs(answers.lookups[i].w / (probability * 128 / (pi * pi * sine)) - relative) <= 1e-5);
     }
-    // There the density has no end, and no direction is drawn; numbers stay finite, as they do for what is no direction.
+    // There the density has no end, and no direction is drawn; numbers stay finite, as they do for what is no
+    // direction.
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
     const std::vector<glm::vec3> odd = {{0, 1, 0}, {0, -1, 0},      {-0.0f, 1, -0.0f},       {1e-30f, -1, 1e-30f},
                                         {0, 0, 0}, {nan, nan, nan}, {infinity, 0, -infinity}};

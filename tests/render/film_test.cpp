@@ -95,8 +95,8 @@ TEST_CASE("film: means, variance and counts are those of double precision") {
 }
 
 TEST_CASE("film: many samples of one brightness lose no digits, and their variance none to cancellation") {
-    // Plain float sums of 4000 equal values are off by up to 2^-13 of them. The second pixel alternates around 1000 by 1/64:
-    // its variance from sums of squares would have no digit left.
+    // Plain float sums of 4000 equal values are off by up to 2^-13 of them. The second pixel alternates around 1000 by
+    // 1/64: its variance from sums of squares would have no digit left.
     const std::uint32_t samples = small_sizes() ? 64 : 4000;
     TestFilm film(whole, 2);
     for (std::uint32_t s = 0; s < samples; ++s) {

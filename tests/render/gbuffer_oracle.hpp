@@ -129,8 +129,8 @@ struct PixelOracle {
     }
 };
 
-/// The change of the first texture coordinates over a pixel, by the rays a thousandth of a pixel on. `magnitude`: the largest number
-/// that meets in it.
+/// The change of the first texture coordinates over a pixel, by the rays a thousandth of a pixel on. `magnitude`: the
+/// largest number that meets in it.
 inline glm::dvec4 derivatives(const PixelOracle& oracle, const CameraRecord& camera, const Ray& ray,
                               double& magnitude) {
     const glm::dvec3 origin = dvec(ray.origin), direction = dvec(ray.direction);

@@ -80,8 +80,8 @@ Planes planes_of(const Shot& shot, unsigned bits, TextureFilter filter) {
             derivatives.values(), materials.values(), instances.values(), primitives.values()};
 }
 
-/// Meshes with all attributes, placed turned, mirrored and sheared, of materials with a picture of 4 x 4 for colour, of which one
-/// also bends normals by the same everywhere.
+/// Meshes with all attributes, placed turned, mirrored and sheared, of materials with a picture of 4 x 4 for colour, of
+/// which one also bends normals by the same everywhere.
 Scene rich_scene(Random& random) {
     Scene scene = instanced_scene(random, 3, small_sizes() ? 3 : 9, small_sizes() ? 20 : 80);
     const auto unit_vector = [&] {
@@ -135,7 +135,7 @@ double off(const std::vector<float>& plane, std::size_t pixel, const glm::dvec3&
 
 } // namespace
 
-TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
+TEST_CASE("gbuffer: planes are what double precision makes of the hits") {
     Random random(320);
     const std::uint32_t width = small_sizes() ? 16 : 96, height = small_sizes() ? 10 : 64;
     for (const bool perspective : {true, false}) {
@@ -160,7 +160,8 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
             }
             const PixelOracle oracle(shot.scene, rays[i], hits[i]);
             REQUIRE(planes.materials[i] == oracle.mesh.materials[hits[i].primitive]);
-            // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of them.
+            // Some 8 roundings of what meets in each number, times what the triangle, its place and the ray make of
+            // them.
             constexpr double rounding = 8 * 0x1p-24;
             double growth = 0.0, magnitude = 0.0;
             REQUIRE(off(planes.positions, i, oracle.position()) <= rounding * oracle.magnitude());
@@ -188,7 +189,7 @@ TEST_CASE("g-buffer: planes are what double precision makes of the hits") {
     }
 }
 
-TEST_CASE("g-buffer: green of a normal texture is up in its picture, with tangents of the file or made ones") {
+TEST_CASE("gbuffer: green of a normal texture is up in its picture, with tangents of the file or made ones") {
     Material bumpy;
     bumpy.normal_texture.texture = 0;
     Scene scene = one_square(bumpy);
@@ -206,7 +207,7 @@ TEST_CASE("g-buffer: green of a normal texture is up in its picture, with tangen
     }
 }
 
-TEST_CASE("g-buffer: a plane is the same alone, and costs nothing when it is not asked for") {
+TEST_CASE("gbuffer: a plane is the same alone, and costs nothing when it is not asked for") {
     Random random(321);
     const Shot shot = shoot(rich_scene(random), inside_camera(true), 20, 11);
     const Planes all = planes_of(shot, 511, TextureFilter::anisotropic);
@@ -224,11 +225,11 @@ TEST_CASE("g-buffer: a plane is the same alone, and costs nothing when it is not
     planes_of(shot, 0, TextureFilter::anisotropic);
 }
 
-TEST_CASE("g-buffer: planes of another size are refused") {
+TEST_CASE("gbuffer: planes of another size are refused") {
     Random random(322);
     Device& device = test_device();
     const Shot shot = shoot(rich_scene(random), inside_camera(true), 4, 3);
-    const Buffer<float> plane = make_buffer<float>(device, 12, "plane");
+    Buffer<float> plane = make_buffer<float>(device, 12, "plane");
     GBuffer planes;
     planes.positions = plane; // a third of what it takes
     const auto run = [&](std::uint32_t samples) {
@@ -242,11 +243,11 @@ TEST_CASE("g-buffer: planes of another size are refused") {
     CHECK_THROWS_AS(run(0), InputError);
 }
 
-TEST_CASE("g-buffer: no pixels are nothing to do; the geometry of another scene is refused") {
+TEST_CASE("gbuffer: no pixels are nothing to do; the geometry of another scene is refused") {
     Random random(323);
     Device& device = test_device();
     const Shot shot = shoot(rich_scene(random), inside_camera(true), 4, 3);
-    const Buffer<float> plane = make_buffer<float>(device, 12, "plane");
+    Buffer<float> plane = make_buffer<float>(device, 12, "plane");
     fill(device, plane.view(), 7.0f);
     GBuffer planes;
     CHECK_NOTHROW(g_buffer(device, shot.geometry, shot.appearance, shot.record, shot.rays.prefix(0),

@@ -20,8 +20,8 @@ TEST_SUITE_BEGIN("render");
 
 namespace {
 
-/// Everything that shading reads: a floor with every texture, a ball with normals, tangents and colours that is cut out, a veil, a
-/// lamp and lights of every kind.
+/// Everything that shading reads: a floor with every texture, a ball with normals, tangents and colours that is cut
+/// out, a veil, a lamp and lights of every kind.
 Scene everything() {
     Scene scene;
     add_floor(scene, metal(glm::vec3(0.9f), 1.0f));

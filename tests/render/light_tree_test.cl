@@ -4,13 +4,13 @@
 #include "bounds/lanes_of.h"
 #include "render/light_tree.h"
 
-/// For a place, u, the index of a light that is not distant, and the irradiance of an environment that all have (5 components): the
-/// light chosen by u from the root of those that are not distant, what is left of u, its probability, that of the light named, and the
-/// probabilities of environment, distant and other lights (7). Component k of record i is at k * count + i, count a multiple of LANES.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void light_tree_test(global const LightNode* nodes,
-                                                                                    uint lights, float environment,
-                                                                                    global const float* questions,
-                                                                                    uint count, global float* answers) {
+/// For a place, u, the index of a light that is not distant, and the irradiance of an environment that all have (5
+/// components): the light chosen by u from the root of those that are not distant, what is left of u, its probability,
+/// that of the light named, and the probabilities of environment, distant and other lights (7). Component k of record i
+/// is at k * count + i, count a multiple of LANES.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void light_tree_test(global const LightNode* nodes, uint lights, float environment, global const float* questions,
+                     uint count, global float* answers) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     const LightTree tree = light_tree_of(nodes, lights);
@@ -23,8 +23,12 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void light_tree_t
     STORE_LANES(TO_WHOLE(q[4]), named);
     LightProbabilities probabilities;
     light_probabilities(&tree, environment, &place, &probabilities);
-    const real found[7] = {
-        TO_REAL(LOAD_LANES(chosen)), q[3],           probability, near_probability(&tree, named, &place),
-        probabilities.environment,          probabilities.distant, probabilities.near};
+    const real found[7] = {TO_REAL(LOAD_LANES(chosen)),
+                           q[3],
+                           probability,
+                           near_probability(&tree, named, &place),
+                           probabilities.environment,
+                           probabilities.distant,
+                           probabilities.near};
     store_components(found, answers, count, at, 7);
 }

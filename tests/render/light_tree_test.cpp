@@ -148,7 +148,7 @@ void check_tree(const std::vector<LightNode>& nodes, const std::vector<LightBoun
 
 } // namespace
 
-TEST_CASE("light tree: every light is a leaf, below nodes that hold it") {
+TEST_CASE("light_tree: every light is a leaf, below nodes that hold it") {
     for (const std::size_t lamps : {0, 1, 2, 3, 17, 500})
         for (const std::size_t suns : {0, 1, 2, 5}) {
             if (lamps + suns == 0) continue;
@@ -165,7 +165,7 @@ TEST_CASE("light tree: every light is a leaf, below nodes that hold it") {
     check_tree(light_tree(lights), lights);
 }
 
-TEST_CASE("light tree: what is chosen, and how often, is as in double precision") {
+TEST_CASE("light_tree: what is chosen, and how often, is as in double precision") {
     const std::size_t count = small_sizes() ? 64 : 8192;
     for (const auto& kinds : {std::pair<std::size_t, std::size_t>{200, 2}, {2, 0}, {1, 1}, {1, 0}})
         for (const float environment : {0.0f, 3.0f}) {
@@ -195,7 +195,7 @@ TEST_CASE("light tree: what is chosen, and how often, is as in double precision"
         }
 }
 
-TEST_CASE("light tree: the probabilities of all lights are positive and add up to 1, at every scale") {
+TEST_CASE("light_tree: the probabilities of all lights are positive and add up to 1, at every scale") {
     const std::size_t lamps = small_sizes() ? 12 : 61, suns = 3;
     for (const int exponent : {-62, 0, 55}) {
         CAPTURE(exponent);
@@ -227,7 +227,7 @@ TEST_CASE("light tree: the probabilities of all lights are positive and add up t
     }
 }
 
-TEST_CASE("light tree: scenes of another size, by a power of two, choose alike to the bit") {
+TEST_CASE("light_tree: scenes of another size, by a power of two, choose alike to the bit") {
     const std::size_t count = small_sizes() ? 32 : 1024;
     const std::vector<LightBounds> lights = random_lights(50, 2);
     const std::vector<Answer> a = ask(light_tree(lights), random_questions(count, 52, 50, 1.0f), 1.0f);
@@ -245,7 +245,7 @@ TEST_CASE("light tree: scenes of another size, by a power of two, choose alike t
     }
 }
 
-TEST_CASE("light tree: what is near, and what faces a place, is chosen there") {
+TEST_CASE("light_tree: what is near, and what faces a place, is chosen there") {
     // A sun as bright as a lamp 8 away, two lamps over a wide ground, and one more that shines up.
     const std::vector<LightBounds> lights = {sun(1.0), lamp_at({-50, 4, 0}, 1, {0, -1, 0}, 64),
                                              lamp_at({50, 4, 0}, 1, {0, -1, 0}, 64),

@@ -26,7 +26,7 @@ Scene with_sign(float side, float radiance) {
 
 } // namespace
 
-TEST_CASE("light: lamps light a room, signs and screws no scene") {
+TEST_CASE("lit: lamps light a room, signs and screws no scene") {
     CHECK_FALSE(lit(Scene{}));
     CHECK(lit(cornell_scene())); // open to the front
     CHECK(lit(make_procedural("cornell")));

@@ -3,19 +3,20 @@
 // compile: LANES=1 TRANSFORMS=1
 #include "render/surface.h"
 
-/// The method of Waechter and Binder 2019: integer steps of the coordinates along the normal, and near the origin a fixed offset.
+/// The method of Waechter and Binder 2019: integer steps of the coordinates along the normal, and near the origin a
+/// fixed offset.
 inline float3 step_origin(float3 point, float3 normal) {
     const int3 steps = convert_int3(256.0f * normal);
     const float3 moved = as_float3(as_int3(point) + select(steps, -steps, point < 0.0f));
     return select(moved, point + normal * (1.0f / 65536.0f), fabs(point) < 1.0f / 32.0f);
 }
 
-/// out[i] = the ray from the point of hits[i] along directions[i] or against it, on the side that rays[i] came from; a null ray
-/// for a miss. `steps`: 1 for the other method.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void origin_test(
-    global const float* positions, global const uint* triangles, global const MeshRange* meshes,
-    global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits, global const float* directions,
-    uint count, uint steps, global Ray* out) {
+/// out[i] = the ray from the point of hits[i] along directions[i] or against it, on the side that rays[i] came from; a
+/// null ray for a miss. `steps`: 1 for the other method.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void origin_test(global const float* positions, global const uint* triangles, global const MeshRange* meshes,
+                 global const InstanceRecord* instances, global const Ray* rays, global const Hit* hits,
+                 global const float* directions, uint count, uint steps, global Ray* out) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     Rays ray;

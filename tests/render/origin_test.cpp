@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Origins by a bound of the errors (render/surface.h) beside the steps of Waechter and Binder 2019 ("A Fast and Robust Method for
-// Avoiding Self-Intersection"), which fit scenes of about unit size.
+// Origins by a bound of the errors (render/surface.h) beside the steps of Waechter and Binder 2019 ("A Fast and Robust
+// Method for Avoiding Self-Intersection"), which fit scenes of about unit size.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,8 +43,8 @@ struct Counts {
     std::size_t wrong[2] = {0, 0}; ///< By error bound, by steps.
 };
 
-/// Rays that leave points which rays from `from` met. Outside a convex body each that hits anything hits where it comes from;
-/// inside a closed one each that misses has leaked.
+/// Rays that leave points which rays from `from` met. Outside a convex body each that hits anything hits where it comes
+/// from; inside a closed one each that misses has leaked.
 Counts count_wrong(const Scene& scene, const BuildOptions& options, const glm::dvec3& from, double reach, bool inside) {
     Device& device = test_device();
     const Tree tree = build(device, scene, options);
@@ -72,13 +72,12 @@ Counts count_wrong(const Scene& scene, const BuildOptions& options, const glm::d
         directions.insert(directions.end(), {next.x, next.y, next.z});
     }
     const Buffer<Ray> rays = upload(device, first, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits"),
-                      next_hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits"), next_hits = make_buffer<Hit>(device, count, "hits");
     closest_hit(device, tree, rays, hits);
     const std::vector<Hit> met = download(device, hits);
     Counts counts;
     for (std::uint32_t steps = 0; steps < 2; ++steps) {
-        const Buffer<Ray> next = make_buffer<Ray>(device, count, "next rays");
+        Buffer<Ray> next = make_buffer<Ray>(device, count, "next rays");
         launch(device, {"render/origin_test.cl", "origin_test", {{"LANES", "1"}, {"TRANSFORMS", "1"}}}, "origin test",
                count, geometry.positions, geometry.triangles, geometry.meshes, geometry.instances, rays, hits,
                upload(device, directions, "directions"), count, steps, next);
@@ -109,7 +108,8 @@ TEST_CASE(
             plane.triangles.emplace_back(a, b, a + 1);
             plane.triangles.emplace_back(a + 1, b, b + 1);
         }
-    // Products of edges of 2^-63, of which a finer sphere's would be, are the least that are not denormal: triangles without area.
+    // Products of edges of 2^-63, of which a finer sphere's would be, are the least that are not denormal: triangles
+    // without area.
     const Mesh fine = sphere_mesh(small_sizes() ? 6 : 24, false), coarse = sphere_mesh(6, false);
     std::size_t rays = 0, by_steps[3] = {0, 0, 0};
     for (const int k :

@@ -29,8 +29,8 @@ LightOptions seeded(std::uint32_t samples, std::uint32_t depth) {
 
 bool same(const Picture& a, const Picture& b) { return a.direct == b.direct && a.indirect == b.indirect; }
 
-/// Means agree to four standard errors of some ten pictures, which are at most `share` of them. Under a checker there are too
-/// few paths for that.
+/// Means agree to four standard errors of some ten pictures, which are at most `share` of them. Under a checker there
+/// are too few paths for that.
 void check_agree(const Estimate& a, const Estimate& b, double share) {
     const double error = std::hypot(a.error, b.error);
     CHECK(std::isfinite(a.mean + error));
@@ -39,7 +39,8 @@ void check_agree(const Estimate& a, const Estimate& b, double share) {
     CHECK(error <= share * b.mean);
 }
 
-/// The Cornell box with a point light and a spot beside its lamp, a smooth sphere placed by a turned transform, and a veil.
+/// The Cornell box with a point light and a spot beside its lamp, a smooth sphere placed by a turned transform, and a
+/// veil.
 Scene rich_scene() {
     Scene scene = cornell_scene();
     Light point;
@@ -62,7 +63,7 @@ Scene rich_scene() {
 
 } // namespace
 
-TEST_CASE("path: the Cornell box is as bright by every strategy, sampler and hemisphere") {
+TEST_CASE("path_invariance: the Cornell box is as bright by every strategy, sampler and hemisphere") {
     const LitScene lit(test_device(), cornell_scene());
     const Camera camera = cornell_scene().cameras[0];
     const Frame frame{small_sizes() ? 2u : 24u, small_sizes() ? 2u : 24u};
@@ -88,7 +89,7 @@ TEST_CASE("path: the Cornell box is as bright by every strategy, sampler and hem
     }
 }
 
-TEST_CASE("path: a lamp and a sky together are as bright by every strategy") {
+TEST_CASE("path_invariance: a lamp and a sky together are as bright by every strategy") {
     Scene scene;
     add_floor(scene, metal({0.9f, 0.8f, 0.7f}, 0.6f));
     add_quad(scene, {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, lamp(glm::vec3(3.0f)));
@@ -118,7 +119,7 @@ TEST_CASE("path: a lamp and a sky together are as bright by every strategy") {
     check_agree(bsdf, hazy_both, 0.005);
 }
 
-TEST_CASE("path: a lamp under a roof gives the same light when a sun shines on the roof") {
+TEST_CASE("path_invariance: a lamp under a roof gives the same light when a sun shines on the roof") {
     // The sun gives off 10^10 times as much: by power alone, in float, the lamp would never be chosen.
     Scene scene;
     add_floor(scene, matt(glm::vec3(0.8f)));
@@ -143,7 +144,7 @@ TEST_CASE("path: a lamp under a roof gives the same light when a sun shines on t
     if (!small_sizes()) CHECK(both.error < 0.03 * alone.mean);
 }
 
-TEST_CASE("path: the same bytes for any cut of the work and any order of the pixels") {
+TEST_CASE("path_invariance: the same bytes for any cut of the work and any order of the pixels") {
     const Scene scene = rich_scene();
     const LitScene lit(test_device(), scene, default_sky());
     const std::uint32_t across = small_sizes() ? 3 : 13; // no multiple of a batch or a slice
@@ -166,7 +167,7 @@ TEST_CASE("path: the same bytes for any cut of the work and any order of the pix
     CHECK(!same(take_picture(test_device(), lit, scene.cameras[0], {across, across}, other), whole));
 }
 
-TEST_CASE("path: memory does not depend on the number of threads") {
+TEST_CASE("path_invariance: memory does not depend on the number of threads") {
     const Scene scene = rich_scene();
     const LitScene lit(test_device(), scene, default_sky());
     const std::uint32_t across = small_sizes() ? 4 : 64;
@@ -175,7 +176,7 @@ TEST_CASE("path: memory does not depend on the number of threads") {
     });
 }
 
-TEST_CASE("path: scene and lights scaled by a power of two give the same picture") {
+TEST_CASE("path_invariance: scene and lights scaled by a power of two give the same picture") {
     const Scene scene = rich_scene();
     const std::uint32_t across = small_sizes() ? 2 : 12;
     const auto take = [&](const Scene& s) {
@@ -190,9 +191,9 @@ TEST_CASE("path: scene and lights scaled by a power of two give the same picture
     }
 }
 
-TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
-    // A lopsided ball of two materials with normals, one of them shining to its front, on a floor: placed by a transform of
-    // negative determinant, and built of mirrored vertices with the sense of its triangles turned.
+TEST_CASE("path_invariance: a mirrored instance is lit as the mirrored mesh is") {
+    // A lopsided ball of two materials with normals, one of them shining to its front, on a floor: placed by a
+    // transform of negative determinant, and built of mirrored vertices with the sense of its triangles turned.
     Mesh ball = sphere_mesh(small_sizes() ? 4 : 10, true);
     for (std::size_t i = 0; i < ball.positions.size(); ++i) {
         ball.positions[i] = ball.positions[i] * glm::vec3(0.5f, 0.7f, 0.4f) + glm::vec3(0.3f, 0.8f, 0.1f);
@@ -234,10 +235,10 @@ TEST_CASE("path: a mirrored instance is lit as the mirrored mesh is") {
     check_agree(second, first, 0.005);
 }
 
-TEST_CASE("path: nothing that is not light, whatever the scene is like") {
+TEST_CASE("path_invariance: nothing that is not light, whatever the scene is like") {
     Scene scene = rich_scene();
-    // Normals of zero, triangles without area that shine, lights in surfaces, at one another's place, of no intensity, and so
-    // strong that their light passes the range of float.
+    // Normals of zero, triangles without area that shine, lights in surfaces, at one another's place, of no intensity,
+    // and so strong that their light passes the range of float.
     for (std::size_t i = 0; i < scene.meshes[8].normals.size(); i += 2) scene.meshes[8].normals[i] = glm::vec3(0.0f);
     const auto shining = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(lamp(glm::vec3(1.0f)));
@@ -267,7 +268,7 @@ TEST_CASE("path: nothing that is not light, whatever the scene is like") {
         }
 }
 
-TEST_CASE("path: no scene, no light, no pixels, and arrays that do not fit") {
+TEST_CASE("path_invariance: no scene, no light, no pixels, and arrays that do not fit") {
     Device& device = test_device();
     const LitScene nothing(device, Scene{});
     const Camera camera = cornell_scene().cameras[0];
@@ -285,9 +286,9 @@ TEST_CASE("path: no scene, no light, no pixels, and arrays that do not fit") {
     CHECK(take_picture(device, night, camera, {4, 4}, seeded(1, 3)).direct == std::vector<double>(48, 0.0));
 
     const Buffer<CameraRecord> record = upload_camera(device, camera, 2, 2);
-    const Buffer<Ray> rays = make_buffer<Ray>(device, 4, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, 4, "hits");
-    const Buffer<float> light = make_buffer<float>(device, 12, "light");
+    Buffer<Ray> rays = make_buffer<Ray>(device, 4, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, 4, "hits");
+    Buffer<float> light = make_buffer<float>(device, 12, "light");
     const LightOptions options;
     CHECK_THROWS_AS(trace_paths(device, night.world(), options, 0, {record, rays, hits, 0}, {light, light.prefix(9)}),
                     InputError);

@@ -54,10 +54,10 @@ struct Frame {
 inline std::vector<float> batch_light(Device& device, const LitScene& lit, const LightOptions& options,
                                       std::uint32_t sample, BufferView<const CameraRecord> record, std::uint32_t first,
                                       std::uint32_t count) {
-    const Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
-    const Buffer<float> direct = make_buffer<float>(device, 3 * std::size_t{count}, "direct");
-    const Buffer<float> indirect = make_buffer<float>(device, 3 * std::size_t{count}, "indirect");
+    Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, count, "hits");
+    Buffer<float> direct = make_buffer<float>(device, 3 * std::size_t{count}, "direct");
+    Buffer<float> indirect = make_buffer<float>(device, 3 * std::size_t{count}, "indirect");
     primary_rays(device, record, first, rays);
     closest_hit(device, lit.tree, rays, hits);
     trace_paths(device, lit.world(), options, sample, {record, rays, hits, first}, {direct, indirect});
@@ -97,9 +97,9 @@ struct Estimate {
     double mean = 0.0, error = 0.0;
     std::uint32_t repeats = 2;
 
-    /// How far from the mean the true one may be: as improbable as three standard errors that are known, though this one comes
-    /// from a few pictures (quantiles of Student's distribution by Wallace 1959, within 2 % from 5 pictures, wider of fewer); and
-    /// roundings, some 64 of each light.
+    /// How far from the mean the true one may be: as improbable as three standard errors that are known, though this
+    /// one comes from a few pictures (quantiles of Student's distribution by Wallace 1959, within 2 % from 5 pictures,
+    /// wider of fewer); and roundings, some 64 of each light.
     double margin() const {
         const double free = repeats - 1.0, shrunk = free - 2.0 / 3 + 0.1 / free;
         const double quantile = std::sqrt(free * std::expm1(9.0 * (free - 5.0 / 6) / (shrunk * shrunk)));

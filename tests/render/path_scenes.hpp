@@ -107,9 +107,9 @@ inline glm::dvec3 reference_bsdf(const Material& m, const glm::dvec3& n, const g
     return cos_i * glm::mix(plastic, metallic, double(m.metallic));
 }
 
-/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing (Heitz 2014) and Schlick's reflectance from
-/// f0 to f90, by the midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is uniform in p, and over p = 1 - q^2,
-/// which takes the integrand's pole at p = 1 away.
+/// Directional albedo of GGX with single scattering, height-correlated Smith shadowing (Heitz 2014) and Schlick's
+/// reflectance from f0 to f90, by the midpoint rule over tan(h) = alpha sqrt(p / (1 - p)), by which the distribution is
+/// uniform in p, and over p = 1 - q^2, which takes the integrand's pole at p = 1 away.
 inline double ggx_albedo(double cosine, double alpha, int across, double f0 = 1.0, double f90 = 1.0) {
     const glm::dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
     const auto shadow = [&](const glm::dvec3& w) {

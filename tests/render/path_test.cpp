@@ -42,7 +42,8 @@ void check_pixels(const Scene& scene, float half, Wanted (*expected)(const glm::
             const double found = picture.light(3 * (8 * y + x));
             CAPTURE(x);
             CAPTURE(y);
-            // Some 64 roundings; and the clearance, 20 roundoffs of the floor's extent of 8, by which a light 1.5 above is nearer.
+            // Some 64 roundings; and the clearance, 20 roundoffs of the floor's extent of 8, by which a light 1.5 above
+            // is nearer.
             CHECK(std::abs(found - wanted.value) <= (64 + 214) * 0x1p-24 * wanted.magnitude);
         }
     CHECK(picture.unusable == 0);

@@ -69,13 +69,13 @@ void check_halves(const Scene& scene, double left, double right) {
 
 } // namespace
 
-TEST_CASE("path: a lamp with a texture that is black on one half shines with the other") {
+TEST_CASE("path_textures: a lamp with a texture that is black on one half shines with the other") {
     Material material = lamp(glm::vec3(3.0f));
     material.emission_texture.texture = 0;
     check_halves(under_square(material, {0, 0, 0, 255}, {255, 255, 255, 255}), 0.0, 3.0);
 }
 
-TEST_CASE("path: a lamp that is cut out, or let light pass, by its texture shines with what is left") {
+TEST_CASE("path_textures: a lamp that is cut out, or let light pass, by its texture shines with what is left") {
     Material material = lamp(glm::vec3(3.0f));
     material.base_color_texture.texture = 0;
     material.alpha_mode = AlphaMode::mask;
@@ -84,7 +84,7 @@ TEST_CASE("path: a lamp that is cut out, or let light pass, by its texture shine
     check_halves(under_square(material, {9, 9, 9, 51}, {9, 9, 9, 153}), 3.0 * 0.2, 3.0 * 0.6);
 }
 
-TEST_CASE("path: a lamp that is finely cut out shines with half its light, however it is found") {
+TEST_CASE("path_textures: a lamp that is finely cut out shines with half its light, however it is found") {
     Material material = lamp(glm::vec3(3.0f));
     material.base_color_texture.texture = 0;
     material.alpha_mode = AlphaMode::mask;
@@ -97,7 +97,7 @@ TEST_CASE("path: a lamp that is finely cut out shines with half its light, howev
     check_halves(scene, 1.5, 1.5);
 }
 
-TEST_CASE("path: both axes of a beam count for what is seen as a picture, by the camera or in a mirror") {
+TEST_CASE("path_textures: both axes of a beam count for what is seen as a picture, by the camera or in a mirror") {
     // A fine pattern on a ceiling that the camera sees at a slant, itself or by way of the floor.
     const PictureSize size{64, 64};
     Material patterned = lamp(glm::vec3(1.0f));
@@ -133,7 +133,7 @@ TEST_CASE("path: both axes of a beam count for what is seen as a picture, by the
     CHECK_FALSE(differ(metal(glm::vec3(0.9f), 0.5f), to_floor));
 }
 
-TEST_CASE("path: the shadow of a fence that is cut out of a texture, texel by texel") {
+TEST_CASE("path_textures: the shadow of a fence that is cut out of a texture, texel by texel") {
     // 8 x 8 times a checkerboard of 2 x 2, between the floor and a point light.
     Material fence = matt(glm::vec3(0.5f));
     fence.alpha_mode = AlphaMode::mask;

@@ -71,7 +71,7 @@ constexpr std::array some_integrators = {Integrator::path, Integrator::direct,  
 
 } // namespace
 
-TEST_CASE("render: batches of any size give the same bytes") {
+TEST_CASE("progress: batches of any size give the same bytes") {
     for (const Integrator integrator : some_integrators) {
         if (small_sizes() && integrator == Integrator::direct) continue; // path's programs
         Painter painter(integrator, small_sizes() ? 1 : 3);
@@ -90,7 +90,7 @@ TEST_CASE("render: batches of any size give the same bytes") {
     }
 }
 
-TEST_CASE("render: the rasteriser's primary hits give the picture of rays, in batches too") {
+TEST_CASE("progress: the rasteriser's primary hits give the picture of rays, in batches too") {
     for (const Integrator integrator : {Integrator::path, Integrator::normals}) {
         Painter painter(integrator, 4);
         const auto paint = [&painter] {
@@ -110,7 +110,7 @@ TEST_CASE("render: the rasteriser's primary hits give the picture of rays, in ba
     }
 }
 
-TEST_CASE("render: a picture grows to what render() gives, and goes on from a state bit by bit") {
+TEST_CASE("progress: a picture grows to what render() gives, and goes on from a state bit by bit") {
     for (const Integrator integrator : some_integrators) {
         CAPTURE(name(integrator));
         if (small_sizes() && integrator == Integrator::direct) continue;
@@ -139,9 +139,9 @@ TEST_CASE("render: a picture grows to what render() gives, and goes on from a st
     }
 }
 
-TEST_CASE("render: a sample that is broken off is taken for the rest of the pixels, and no state") {
-    // Paths that leave the picture's top rows all meet nothing, those of later batches not: only these need the program that is
-    // broken for a while.
+TEST_CASE("progress: a sample that is broken off is taken for the rest of the pixels, and no state") {
+    // Paths that leave the picture's top rows all meet nothing, those of later batches not: only these need the program
+    // that is broken for a while.
     Painter painter(Integrator::path, 3);
     painter.options.light.strategy = Strategy::bsdf;
     painter.options.batch = 2 * width;
@@ -166,7 +166,7 @@ TEST_CASE("render: a sample that is broken off is taken for the rest of the pixe
     CHECK(same_channels(work.image(), whole));
 }
 
-TEST_CASE("render: one that was moved from says so, and can be assigned to") {
+TEST_CASE("progress: one that was moved from says so, and can be assigned to") {
     Painter painter(Integrator::normals, 2);
     Render work = painter.start();
     work.advance();
@@ -184,7 +184,7 @@ TEST_CASE("render: one that was moved from says so, and can be assigned to") {
     CHECK(work.samples() == 1);
 }
 
-TEST_CASE("render: a state of something else, or a damaged one, is refused") {
+TEST_CASE("progress: a state of something else, or a damaged one, is refused") {
     Painter painter(Integrator::normals, 4);
     Render work = painter.start();
     work.advance();
@@ -242,7 +242,7 @@ TEST_CASE("render: a state of something else, or a damaged one, is refused") {
     CHECK(differs([](Painter& other) { other.scene.materials[1].base_color.x = 0.5f; }));
 }
 
-TEST_CASE("render: a state of costs is refused with any other tree") {
+TEST_CASE("progress: a state of costs is refused with any other tree") {
     Painter painter(Integrator::cost, 4);
     Render work = painter.start();
     work.advance();

@@ -17,8 +17,8 @@ TEST_SUITE_BEGIN("render");
 
 namespace {
 
-/// A picture whose pixels have their centres at odd multiples of half a unit, exactly: unit pixels, width x height, through an
-/// orthographic camera that looks down -z from z = 10.
+/// A picture whose pixels have their centres at odd multiples of half a unit, exactly: unit pixels, width x height,
+/// through an orthographic camera that looks down -z from z = 10.
 Camera unit_camera(std::uint32_t height) {
     Camera camera;
     camera.to_world = glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, 10.0f});
@@ -36,8 +36,8 @@ void split(Mesh& mesh, std::size_t triangle, const glm::vec3& point) {
     mesh.triangles.push_back({t.z, t.x, vertex});
 }
 
-/// A rectangle from -reach to reach in x and y at z = 0, split again and again at points that `choose` takes from the corners of
-/// a triangle: a surface without holes, whatever the points are.
+/// A rectangle from -reach to reach in x and y at z = 0, split again and again at points that `choose` takes from the
+/// corners of a triangle: a surface without holes, whatever the points are.
 template <class Choose>
 Mesh patch(glm::vec2 reach, std::size_t triangles, Random& random, const Choose& choose) {
     Mesh mesh;
@@ -64,7 +64,7 @@ void check_filled(const Scene& scene, const Camera& camera, std::uint32_t width,
 
 } // namespace
 
-TEST_CASE("raster: every pixel of a closed surface has a triangle, also on edges and corners") {
+TEST_CASE("raster_coverage: every pixel of a closed surface has a triangle, also on edges and corners") {
     // Three tiles by two. Corners of the triangles are pixel centres (jitter 0), or corners of pixels.
     const std::uint32_t width = small_sizes() ? 18 : 48, height = small_sizes() ? 4 : 32;
     Random random(310);
@@ -100,9 +100,9 @@ TEST_CASE("raster: every pixel of a closed surface has a triangle, also on edges
         }
 }
 
-TEST_CASE("raster: triangles through the plane of the eye") {
-    // A floor under the eye and far around it: below the horizon all pixels, above it none. Nearer than 17 roundoffs of its triangles'
-    // extents, 0.06, a ray could not tell on which side of them it starts.
+TEST_CASE("raster_coverage: triangles through the plane of the eye") {
+    // A floor under the eye and far around it: below the horizon all pixels, above it none. Nearer than 17 roundoffs of
+    // its triangles' extents, 0.06, a ray could not tell on which side of them it starts.
     const std::uint32_t width = 50, height = 40;
     Random random(311);
     const auto anywhere = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
@@ -126,7 +126,7 @@ TEST_CASE("raster: triangles through the plane of the eye") {
     }
 }
 
-TEST_CASE("raster: no gaps where edges round") {
+TEST_CASE("raster_coverage: no gaps where edges round") {
     // Triangles of a fraction of a pixel, on a slope away from the origin, so that edges round.
     Random random(314);
     const std::uint32_t width = small_sizes() ? 20 : 150, height = small_sizes() ? 10 : 100;

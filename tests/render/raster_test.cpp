@@ -71,7 +71,7 @@ TEST_CASE("raster: a part of a picture is that part of it, and many triangles th
     const Rasteriser rasteriser(device, scene, tree, geometry);
     const Buffer<CameraRecord> camera = upload_camera(device, scene.cameras.at(0), width, height);
     const auto part = [&](std::uint32_t first, std::uint32_t count) {
-        const Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
+        Buffer<Ray> rays = make_buffer<Ray>(device, count, "rays");
         const Guarded<Hit> hits(device, count);
         primary_rays(device, camera, first, rays);
         rasteriser.draw(camera, width, height, first, rays, hits.view());
@@ -83,8 +83,8 @@ TEST_CASE("raster: a part of a picture is that part of it, and many triangles th
     for (const auto& [first, count] :
          {std::pair<std::uint32_t, std::uint32_t>{700, 1}, {620, 30}, {600, 70}, {333, 1999}, {61 * 45 - 1, 1}, {5, 0}})
         CHECK(same_bits(part(first, count), std::vector<Hit>(all.begin() + first, all.begin() + first + count)));
-    const Buffer<Ray> rays = make_buffer<Ray>(device, 2, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, 2, "hits");
+    Buffer<Ray> rays = make_buffer<Ray>(device, 2, "rays");
+    Buffer<Hit> hits = make_buffer<Hit>(device, 2, "hits");
     CHECK_THROWS_AS(rasteriser.draw(camera, width, height, width * height - 1, rays, hits), InputError);
     CHECK_THROWS_AS(rasteriser.draw(camera, 0, height, 0, rays, hits), InputError);
     CHECK_THROWS_AS(rasteriser.draw(camera, width, 0, 0, rays, hits), InputError);

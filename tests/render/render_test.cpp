@@ -135,9 +135,9 @@ TEST_CASE("render: costs are the statistics of the same rays") {
     for (const Bounds bounds : {Bounds::aabb, Bounds::obb_moments}) {
         const Tree tree = build(device, scene, {.bounds = {.kind = bounds}});
         const Image image = render(device, scene, tree, {}, wide_camera(), options_of(Integrator::cost, {Aov::cost}));
-        const Buffer<Ray> rays = make_buffer<Ray>(device, width * height, "rays");
-        const Buffer<Hit> hits = make_buffer<Hit>(device, width * height, "hits");
-        const Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, width * height, "statistics");
+        Buffer<Ray> rays = make_buffer<Ray>(device, width * height, "rays");
+        Buffer<Hit> hits = make_buffer<Hit>(device, width * height, "hits");
+        Buffer<RayStatistics> statistics = make_buffer<RayStatistics>(device, width * height, "statistics");
         primary_rays(device, wide_camera(), width, height, rays);
         closest_hit(device, tree, rays, hits, statistics);
         const std::vector<RayStatistics> expected = download(device, statistics);

@@ -8,9 +8,9 @@
 #include "render/sampler.h"
 
 /// out = the point of sample s of `samples` for `count` pixels and dimensions, two floats each.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void sampler_test(ulong seed, global const uint* pixels,
-                                                                                 global const uint* dimensions, uint count,
-                                                                                 uint samples, global float* out) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void sampler_test(ulong seed, global const uint* pixels, global const uint* dimensions, uint count, uint samples,
+                  global float* out) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     const wide key = random_key(seed, TO_WIDE(LOAD_LANES(pixels + at)));

@@ -84,8 +84,8 @@ TEST_CASE("sampler: points lie in the unit square, uniformly, and depend on noth
             product += double(p.x) * p.y / count;
         }
         CHECK(outside == 0);
-        // Variance of x is 1/12, of x^2 4/45, of x y 7/144; five standard deviations of independent points, which the others
-        // must not pass either.
+        // Variance of x is 1/12, of x^2 4/45, of x y 7/144; five standard deviations of independent points, which the
+        // others must not pass either.
         CHECK(std::abs(mean.x - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
         CHECK(std::abs(mean.y - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
         CHECK(std::abs(square.x - 1.0 / 3) < 5 * std::sqrt(4.0 / 45 / count));

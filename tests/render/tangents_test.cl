@@ -5,8 +5,8 @@
 #include "render/tangents.h"
 
 /// Tangent, bitangent and the direction itself.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void tangents_test(global const float* directions,
-                                                                                  global float* results, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void tangents_test(global const float* directions, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     real d[3];

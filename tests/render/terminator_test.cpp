@@ -48,7 +48,8 @@ const std::vector<float>& plane(const Image& image, const std::string& name) {
     throw std::runtime_error("no channel " + name);
 }
 
-/// Of the pixels whose normals for shading are turned to a sun at +x by more than a pixel's width changes, the fraction that is black.
+/// Of the pixels whose normals for shading are turned to a sun at +x by more than a pixel's width changes, the fraction
+/// that is black.
 double black_share(const Scene& scene, Integrator integrator, float half, std::uint32_t across, float scale = 1.0f) {
     RenderOptions options;
     options.light.integrator = integrator;

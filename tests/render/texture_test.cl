@@ -6,10 +6,9 @@
 #include "render/texture.h"
 
 /// A texture coordinate and a footprint for each query: 6 floats. Sharp.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void sample_test(global const TextureRecord* texture,
-                                                                                global const uint* texels,
-                                                                                global const float* queries, uint count,
-                                                                                global float4* colors) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void sample_test(global const TextureRecord* texture, global const uint* texels, global const float* queries,
+                 uint count, global float4* colors) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* q = queries + 6 * (size_t)i;

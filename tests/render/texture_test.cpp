@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sampling of textures against the definition in double precision: a plane of texels without end, read through the wrap modes.
+// Sampling of textures against the definition in double precision: a plane of texels without end, read through the wrap
+// modes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -158,7 +159,8 @@ double difference(const glm::vec4& a, const glm::dvec4& b) {
     return most >= 0.0 ? most : std::numeric_limits<double>::infinity(); // NaN
 }
 
-/// What float may be off by: a texel is at most 1 from the next, so an error of the place, in texels, is one of the colour.
+/// What float may be off by: a texel is at most 1 from the next, so an error of the place, in texels, is one of the
+/// colour.
 double tolerance(const Picture& picture, const Query& q) {
     const double size = std::max(picture.record.width, picture.record.height);
     const double reach = std::max({std::fabs(q.u), std::fabs(q.v), 1.0f}) + std::fabs(q.x_u) + std::fabs(q.x_v) +
@@ -339,8 +341,8 @@ TEST_CASE("texture: turning a beam about itself changes nothing") {
 }
 
 TEST_CASE("texture: the anisotropic filter keeps what lies across the shorter axis") {
-    // Columns black and white, of a picture so filtered that a level is the mean of the one before: grey from level 1 on. A
-    // footprint of one texel across the columns and 16 along them sees a column, and the trilinear filter grey.
+    // Columns black and white, of a picture so filtered that a level is the mean of the one before: grey from level 1
+    // on. A footprint of one texel across the columns and 16 along them sees a column, and the trilinear filter grey.
     Picture picture;
     picture.record = {0, 32, 32, 6, 0, 0, 0, 0};
     picture.texels.resize(picture.first_word(6), 0x80808080u);

@@ -5,8 +5,8 @@
 #include "render/turn.h"
 
 /// Sine and cosine of turns.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void turn_test(global const float* turns, global float* results,
-                                                                              uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void turn_test(global const float* turns, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     real values[2];
@@ -15,8 +15,8 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void turn_test(gl
 }
 
 /// The angles of points (x, y).
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void angle_test(global const float* points, global float* results,
-                                                                               uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void angle_test(global const float* points, global float* results, uint count) {
     const uint at = (uint)get_global_id(0) * LANES;
     if (at >= count) return;
     const real angle = atan2_pi(LOAD_LANES(points + count + at), LOAD_LANES(points + at));

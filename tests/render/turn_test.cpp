@@ -58,9 +58,9 @@ TEST_CASE("turn: sine and cosine to the last place") {
         for (int k = 0; k < 2; ++k) worst[k] = std::max(worst[k], ulps(found[i][k], exact[k]));
         worst_length = std::max(worst_length, std::abs(std::hypot(found[i][0], found[i][1]) - 1) * 0x1p24);
     }
-    // The last rounding is half a place. Towards an eighth of a turn, where the values are 0.7 and a place is their roundoff,
-    // what is added to the cosine's 1 is 0.29, and its two roundings as much of a place each; to the sine's first term, 0.08,
-    // and its three roundings as much each. Polynomials and the smaller roundings are below 0.1.
+    // The last rounding is half a place. Towards an eighth of a turn, where the values are 0.7 and a place is their
+    // roundoff, what is added to the cosine's 1 is 0.29, and its two roundings as much of a place each; to the sine's
+    // first term, 0.08, and its three roundings as much each. Polynomials and the smaller roundings are below 0.1.
     CHECK(worst[0] <= 0.9);
     CHECK(worst[1] <= 1.15);
     CHECK(worst_length <= 2.5);

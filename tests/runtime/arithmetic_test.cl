@@ -3,8 +3,8 @@
 #include "runtime/numerics.h"
 
 /// results = a / b, sqrt(a), a + b, a b, fma(a, b, a), each of `count` numbers after the other.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void
-arithmetic_test(global const float* a, global const float* b, global float* results, uint count) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void arithmetic_test(global const float* a, global const float* b, global float* results, uint count) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const size_t n = count;

@@ -32,8 +32,8 @@ Differences differences(const std::vector<float>& a, const std::vector<float>& b
     Device& device = test_device();
     const std::size_t n = a.size();
     Guarded<float> results(device, 5 * n);
-    launch(device, {"runtime/arithmetic_test.cl", "arithmetic_test"}, "arithmetic", n, upload<float>(device, a, "a"),
-           upload<float>(device, b, "b"), results.view(), static_cast<std::uint32_t>(n));
+    launch(device, {"runtime/arithmetic_test.cl", "arithmetic_test"}, "arithmetic", n, upload(device, a, "a"),
+           upload(device, b, "b"), results.view(), static_cast<std::uint32_t>(n));
     const std::vector<float> found = results.values();
     CHECK(results.intact());
     Differences counts;

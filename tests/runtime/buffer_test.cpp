@@ -43,16 +43,16 @@ TEST_CASE("buffer: what is written is read, copied and filled") {
     const Buffer<std::uint32_t> source = upload(device, values, "source");
     CHECK(download(device, source) == values);
     Guarded<std::uint32_t> target(device, 1001);
-    copy<std::uint32_t>(device, source.view(), target.view());
+    copy(device, source.view(), target.view());
     CHECK(target.values() == values);
-    write<std::uint32_t>(device, std::vector<std::uint32_t>{1, 2, 3}, target.view());
+    write(device, std::vector<std::uint32_t>{1, 2, 3}, target.view());
     CHECK(target.values()[2] == 3);
     CHECK(target.values()[3] == values[3]);
-    write<std::uint32_t>(device, std::vector<std::uint32_t>{4, 5}, target.view(), 999);
+    write(device, std::vector<std::uint32_t>{4, 5}, target.view(), 999);
     CHECK(target.values()[998] == values[998]);
     CHECK(target.values()[999] == 4);
     CHECK(target.values()[1000] == 5);
-    fill<std::uint32_t>(device, target.view().prefix(500), 9);
+    fill(device, target.view().prefix(500), 9);
     CHECK(target.values()[499] == 9);
     CHECK(target.values()[500] == values[500]);
     CHECK(target.intact());
@@ -64,8 +64,8 @@ TEST_CASE("buffer: no elements are a valid buffer") {
     const Buffer<std::uint32_t> none = upload(device, std::vector<std::uint32_t>{}, "none");
     CHECK(none.size() == 0);
     CHECK(download(device, none).empty());
-    CHECK_NOTHROW(fill<std::uint32_t>(device, none, 1));
-    CHECK_NOTHROW(copy<std::uint32_t>(device, none.view(), none.view()));
+    CHECK_NOTHROW(fill(device, none, 1));
+    CHECK_NOTHROW(copy(device, none.view(), none.view()));
     CHECK(download(device, Buffer<float>()).empty());
 }
 
@@ -82,7 +82,8 @@ TEST_CASE("buffer: capacity errors carry both numbers, and nothing stays held") 
     CHECK(refuses([&] { make_scratch<Page>(device, pages, "big"); }, pages * sizeof(Page), largest));
     CHECK(device.held_bytes() == 0);
 
-    // Up to the device's memory by buffers that are never touched, of which a CPU device takes no page. (Oclgrind does.)
+    // Up to the device's memory by buffers that are never touched, of which a CPU device takes no page. (Oclgrind
+    // does.)
     if (small_sizes()) return;
     std::vector<Buffer<Page>> held;
     while (device.held_bytes() + largest <= memory && held.size() < 1000)
@@ -102,20 +103,20 @@ TEST_CASE("buffer: scratch is pooled, counted and given back") {
     CHECK(device.held_bytes() == 0);
     cl_mem first = nullptr;
     {
-        const Buffer<float> scratch = make_scratch<float>(device, 10000, "scratch");
+        Buffer<float> scratch = make_scratch<float>(device, 10000, "scratch");
         first = scratch.view().handle();
         CHECK(device.held_bytes() == 40000);
-        const Buffer<float> other = make_scratch<float>(device, 10000, "scratch");
+        Buffer<float> other = make_scratch<float>(device, 10000, "scratch");
         CHECK(other.view().handle() != first);
         CHECK(device.held_bytes() == 80000);
     }
     CHECK(device.held_bytes() == 80000); // pooled scratch counts
     {
-        const Buffer<float> again = make_scratch<float>(device, 9000, "scratch");
+        Buffer<float> again = make_scratch<float>(device, 9000, "scratch");
         CHECK(device.held_bytes() == 80000); // reused, though smaller
-        const Buffer<float> tiny = make_scratch<float>(device, 1, "scratch");
+        Buffer<float> tiny = make_scratch<float>(device, 1, "scratch");
         CHECK(device.held_bytes() == 80004); // a block many times too large is not wasted on it
-        const Buffer<float> plain = make_buffer<float>(device, 10000, "plain");
+        Buffer<float> plain = make_buffer<float>(device, 10000, "plain");
         CHECK(device.held_bytes() == 120004); // what is not scratch does not come from the pool
     }
     CHECK(device.held_bytes() == 80004);

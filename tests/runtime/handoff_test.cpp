@@ -16,11 +16,11 @@ namespace {
 void check_pairs(const KernelRef& kernel) {
     Device& device = test_device();
     const std::uint32_t pairs = small_sizes() ? 500 : 100000;
-    const Buffer<std::uint32_t> left = make_scratch<std::uint32_t>(device, 2 * pairs, "left");
-    const Buffer<std::uint32_t> places = make_scratch<std::uint32_t>(device, pairs, "places");
+    Buffer<std::uint32_t> left = make_scratch<std::uint32_t>(device, 2 * pairs, "left");
+    Buffer<std::uint32_t> places = make_scratch<std::uint32_t>(device, pairs, "places");
     Guarded<std::uint32_t> sums(device, pairs), seconds(device, pairs);
-    fill<std::uint32_t>(device, places, 0);
-    fill<std::uint32_t>(device, seconds.view(), 0);
+    fill(device, places, 0);
+    fill(device, seconds.view(), 0);
     launch(device, kernel, "handoff test", 2 * pairs, left, places, sums.view(), seconds.view(), pairs);
     std::size_t wrong = 0;
     const auto sum = sums.values(), taken = seconds.values(), counts = download(device, places);

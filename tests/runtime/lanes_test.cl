@@ -6,7 +6,8 @@
 #include "runtime/lanes.h"
 
 /// out[4 * m + k] for the mask m in [0, 256): lanes8, lanes8_portable, lanes4, lanes4_portable (of the low bits).
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void lanes_test(global uint* out) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void lanes_test(global uint* out) {
     const uint m = (uint)get_global_id(0);
     if (m >= 256) return;
     const int8 bits = (int8)(1, 2, 4, 8, 16, 32, 64, 128);

@@ -23,7 +23,7 @@ EncodedImage file_of(std::initializer_list<unsigned> bytes, std::size_t more = 0
 
 } // namespace
 
-TEST_CASE("a picture comes back from PNG with one to four channels") {
+TEST_CASE("picture: a picture comes back from PNG with one to four channels") {
     // What the channels are as RGBA: 5 x 3 pixels, so that rows and columns are told apart.
     for (std::uint32_t channels = 1; channels <= 4; ++channels) {
         CAPTURE(channels);
@@ -44,7 +44,7 @@ TEST_CASE("a picture comes back from PNG with one to four channels") {
     }
 }
 
-TEST_CASE("a PNG file of 16 bits keeps them, one of 8 stays as small as it is") {
+TEST_CASE("picture: a PNG file of 16 bits keeps them, one of 8 stays as small as it is") {
     for (std::uint32_t channels = 1; channels <= 4; ++channels) {
         CAPTURE(channels);
         std::vector<std::uint16_t> values(5 * 3 * channels);
@@ -72,7 +72,7 @@ TEST_CASE("a PNG file of 16 bits keeps them, one of 8 stays as small as it is") 
     CHECK(!is_wide(file_of({0xff, 0xd8, 0xff})));
 }
 
-TEST_CASE("what is no picture is refused") {
+TEST_CASE("picture: what is no picture is refused") {
     CHECK_THROWS_AS(picture_size(file_of({})), InputError);
     CHECK_THROWS_AS(picture_size(file_of({'G', 'I', 'F', '8', '9', 'a'}, 100)), InputError);
     CHECK_THROWS_AS(picture_size(file_of({0xff, 0xd8, 0xff})), InputError);
@@ -81,7 +81,7 @@ TEST_CASE("what is no picture is refused") {
     CHECK_THROWS_AS(encode_png("picture", {0, 2}, 3, {}), InputError);
 }
 
-TEST_CASE("a picture that is too large or cut off says so") {
+TEST_CASE("picture: a picture that is too large or cut off says so") {
     EncodedImage image{"picture", encode_png("picture", {64, 64}, 3, std::vector<std::uint8_t>(64 * 64 * 3))};
     EncodedImage huge = image;
     for (const std::size_t at : {16, 20}) huge.bytes[at + 2] = std::byte{0xea}; // 59,968 x 59,968
@@ -90,7 +90,7 @@ TEST_CASE("a picture that is too large or cut off says so") {
     CHECK_THROWS_WITH_AS(decode_picture(image), doctest::Contains("ends early"), InputError);
 }
 
-TEST_CASE("a JPEG file with more codes in a table than there are symbols is refused") {
+TEST_CASE("picture: a JPEG file with more codes in a table than there are symbols is refused") {
     // One segment DHT with 16 counts of 255, also where the file or the segment ends early.
     for (const std::size_t more : {0, 4, 5000}) {
         EncodedImage image = file_of({0xff, 0xd8, 0xff, 0xc4, 0x00, 0x13, 0x00});
@@ -100,7 +100,7 @@ TEST_CASE("a JPEG file with more codes in a table than there are symbols is refu
     }
 }
 
-TEST_CASE("a picture cannot ask for more memory than its size needs") {
+TEST_CASE("picture: a picture cannot ask for more memory than its size needs") {
     // The data of 4 million pixels under a head that says one: 12 MB from a file of some kB.
     EncodedImage image{"picture", encode_png("picture", {2048, 2048}, 3, std::vector<std::uint8_t>(3 << 22))};
     CHECK(decode_picture(image).rgba.size() == 4 << 22);

@@ -63,7 +63,7 @@ bool is_closed(const Mesh& mesh) {
 
 } // namespace
 
-TEST_CASE("every kind is valid, has a camera, and depends on nothing but its options") {
+TEST_CASE("procedural: every kind is valid, has a camera, and depends on nothing but its options") {
     for (const ProceduralKind& kind : procedural_kinds()) {
         CAPTURE(kind.name);
         CHECK(!kind.description.empty());
@@ -79,7 +79,7 @@ TEST_CASE("every kind is valid, has a camera, and depends on nothing but its opt
     CHECK(procedural_kinds().size() == 9);
 }
 
-TEST_CASE("triangle counts are reached from below as closely as the shape allows") {
+TEST_CASE("procedural: triangle counts are reached from below as closely as the shape allows") {
     // 1 is below every shape's least; 40,000 lies between two sizes of each.
     const auto count = [](const char* kind, std::uint64_t wanted) {
         return make_procedural(kind, {wanted}).triangle_count();
@@ -106,7 +106,7 @@ TEST_CASE("triangle counts are reached from below as closely as the shape allows
     CHECK(count("planks", 40'000) == 3333 * 12);
 }
 
-TEST_CASE("surfaces have materials, and smooth ones the normals of their shape") {
+TEST_CASE("procedural: surfaces have materials, and smooth ones the normals of their shape") {
     for (const ProceduralKind& kind : procedural_kinds()) {
         CAPTURE(kind.name);
         const Scene scene = make_procedural(kind.name, {3000});
@@ -135,7 +135,7 @@ TEST_CASE("surfaces have materials, and smooth ones the normals of their shape")
     CHECK(make_procedural("materials").lights.size() == 1);
 }
 
-TEST_CASE("the sphere is closed, outward and shares every vertex") {
+TEST_CASE("procedural: the sphere is closed, outward and shares every vertex") {
     for (const std::uint64_t f : {1, 2, 3, 10, 64}) {
         CAPTURE(f);
         const Scene scene = make_procedural("sphere", {8 * f * f});
@@ -149,7 +149,7 @@ TEST_CASE("the sphere is closed, outward and shares every vertex") {
     }
 }
 
-TEST_CASE("the sponge encloses (20/27)^level of its cube and nothing inside") {
+TEST_CASE("procedural: the sponge encloses (20/27)^level of its cube and nothing inside") {
     double cube = 8.0;
     for (const std::uint64_t triangles : {12, 144, 2112, 36096}) {
         CAPTURE(triangles);
@@ -162,7 +162,7 @@ TEST_CASE("the sponge encloses (20/27)^level of its cube and nothing inside") {
     }
 }
 
-TEST_CASE("random triangles lie in the unit cube") {
+TEST_CASE("procedural: random triangles lie in the unit cube") {
     for (const std::uint64_t triangles : {1, 7, 8, 63, 64, 4096}) {
         const Scene scene = make_procedural("random", {triangles});
         for (const glm::vec3& p : scene.meshes[0].positions) {
@@ -171,7 +171,7 @@ TEST_CASE("random triangles lie in the unit cube") {
     }
 }
 
-TEST_CASE("the terrain is one sheet that faces up") {
+TEST_CASE("procedural: the terrain is one sheet that faces up") {
     const Scene scene = make_procedural("terrain", {5'000});
     const Mesh& mesh = scene.meshes[0];
     double area = 0;
@@ -184,7 +184,7 @@ TEST_CASE("the terrain is one sheet that faces up") {
     CHECK(area == doctest::Approx(4.0).epsilon(1e-6)); // the projection covers [-1, 1]^2 once
 }
 
-TEST_CASE("the cornell box has its closed form") {
+TEST_CASE("procedural: the cornell box has its closed form") {
     const Scene scene = make_procedural("cornell");
     CHECK(scene.meshes.size() == 8);
     CHECK(scene.instances.size() == 8);
@@ -201,7 +201,7 @@ TEST_CASE("the cornell box has its closed form") {
     }
 }
 
-TEST_CASE("the forest has the instances it was asked for, standing on its ground") {
+TEST_CASE("procedural: the forest has the instances it was asked for, standing on its ground") {
     // 1: the ground alone; 2: one tree; 82 fills a square of 9 x 9 and 83 starts the next.
     for (const std::uint64_t instances : {1, 2, 82, 83, 5000}) {
         CAPTURE(instances);
@@ -222,7 +222,7 @@ TEST_CASE("the forest has the instances it was asked for, standing on its ground
     }
 }
 
-TEST_CASE("planks are closed boards of fixed shape, turned off the axes") {
+TEST_CASE("procedural: planks are closed boards of fixed shape, turned off the axes") {
     // 1 board; 9: the second pile has one; 4000: the default.
     for (const std::uint64_t boards : {1, 9, 4000}) {
         CAPTURE(boards);
@@ -249,7 +249,7 @@ TEST_CASE("planks are closed boards of fixed shape, turned off the axes") {
     }
 }
 
-TEST_CASE("strands of hair are closed, slender, and lean between the axes") {
+TEST_CASE("procedural: strands of hair are closed, slender, and lean between the axes") {
     const Scene scene = make_procedural("hair", {50 * 100});
     const Mesh& mesh = scene.meshes[0];
     REQUIRE(mesh.triangles.size() == 50 * 100);
@@ -264,14 +264,14 @@ TEST_CASE("strands of hair are closed, slender, and lean between the axes") {
     }
 }
 
-TEST_CASE("splitmix64 gives its published sequence") {
+TEST_CASE("procedural: splitmix64 gives its published sequence") {
     Random random(1234567); // reference values of the algorithm for this seed
     CHECK(random.bits() == 6457827717110365317u);
     CHECK(random.bits() == 3203168211198807973u);
     CHECK(random.bits() == 9817491932198370423u);
 }
 
-TEST_CASE("an unknown kind or an endless count is refused") {
+TEST_CASE("procedural: an unknown kind or an endless count is refused") {
     CHECK_THROWS_WITH_AS(make_procedural("bunny"),
                          doctest::Contains("cornell, random, terrain, sphere, forest, menger, hair, planks"),
                          InputError);

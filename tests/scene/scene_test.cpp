@@ -39,7 +39,7 @@ std::string fault(const Scene& scene) {
 
 } // namespace
 
-TEST_CASE("counts: meshes once, instances each time") {
+TEST_CASE("scene: counts: meshes once, instances each time") {
     Scene scene = two_triangles();
     CHECK(scene.triangle_count() == 3);
     CHECK(scene.vertex_count() == 7);
@@ -49,7 +49,7 @@ TEST_CASE("counts: meshes once, instances each time") {
     CHECK(scene.triangle_count() == 3);
 }
 
-TEST_CASE("validate names what breaks a promise") {
+TEST_CASE("scene: validate names what breaks a promise") {
     const float infinity = std::numeric_limits<float>::infinity();
     CHECK(fault(Scene{}) == "");
     Scene scene = two_triangles();
@@ -78,7 +78,7 @@ TEST_CASE("validate names what breaks a promise") {
     CHECK(broken([](Scene& s) { s.cameras[0].to_world[1] = {}; }) == "cameras[0].to_world");
 }
 
-TEST_CASE("a transform is judged by its shape, not by its size") {
+TEST_CASE("scene: a transform is judged by its shape, not by its size") {
     const float c = std::sqrt(0.5f);
     const glm::mat4 turn{{c, c, 0, 0}, {-c, c, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     for (const int exponent : {-100, -60, -20, 0, 20, 60, 100}) {
@@ -94,7 +94,7 @@ TEST_CASE("a transform is judged by its shape, not by its size") {
     CHECK(transform_fault(scaled(std::nanf(""), 1, 1)) == "is not finite");
 }
 
-TEST_CASE("flatten: triangles in instance order, transformed in double, rounded once") {
+TEST_CASE("scene: flatten: triangles in instance order, transformed in double, rounded once") {
     Scene scene = two_triangles();
     test::Random random(1);
     for (glm::vec3& position : scene.meshes[1].positions) {
@@ -132,7 +132,7 @@ TEST_CASE("flatten: triangles in instance order, transformed in double, rounded 
     CHECK(flatten(Scene{}).meshes.empty());
 }
 
-TEST_CASE("flatten refuses 2^31 triangles before it takes memory") {
+TEST_CASE("scene: flatten refuses 2^31 triangles before it takes memory") {
     Scene scene = two_triangles();
     scene.meshes[0].triangles.assign(1 << 16, glm::uvec3(0, 1, 2));
     scene.instances.assign(1 << 15, {"", 0, glm::mat4(1)});

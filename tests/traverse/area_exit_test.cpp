@@ -12,7 +12,7 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("traverse");
 
-TEST_CASE("areas: a hit in the local tree beyond the region is not the closest") {
+TEST_CASE("area_exit: a hit in the local tree beyond the region is not the closest") {
     // The region ends at z = 1. A slanted triangle begins in it and is met at z = 5; another, outside, at z = 2.
     Mesh mesh;
     mesh.positions = {{-4, -4, 0.5f}, {8, -4, 9.5f}, {-4, 8, 9.5f}, {-1, -1, 2}, {3, -1, 2}, {-1, 3, 2}};
@@ -39,10 +39,10 @@ TEST_CASE("areas: a hit in the local tree beyond the region is not the closest")
     CHECK(found.continued == 2);
 }
 
-TEST_CASE("areas: a grazed triangle just beyond the region is not lost") {
-    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates. It begins at
-    // z = 1.005, farther from the region, which ends at 1, than local trees reach, and no hit may be said to be before. A small one
-    // inside makes the tree.
+TEST_CASE("area_exit: a grazed triangle just beyond the region is not lost") {
+    // Rays along z graze a triangle at 2^-19: what they travel to it rounds by 2^19 times as much as its coordinates.
+    // It begins at z = 1.005, farther from the region, which ends at 1, than local trees reach, and no hit may be said
+    // to be before. A small one inside makes the tree.
     Random random(54);
     std::size_t beyond = 0, before = 0;
     for (int i = 0; i < (small_sizes() ? 2 : 20); ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("areas: a grazed triangle just beyond the region is not lost") {
     CHECK(before == 0);
 }
 
-TEST_CASE("areas: distances tied on the face where rays leave the region, the lowest primitive wins") {
+TEST_CASE("area_exit: distances tied on the face where rays leave the region, the lowest primitive wins") {
     // Triangles in the plane z = 1, where the region ends, three times; rays reach it at t = 1 exactly.
     Mesh mesh;
     for (int copy = 0; copy < 3; ++copy) {

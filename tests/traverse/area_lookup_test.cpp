@@ -14,8 +14,9 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("traverse");
 
-TEST_CASE("area lookup: of the areas that hold the origin and that the ray follows the one it leaves last") {
-    // Boxes along z from 0 to 1, 3, 2 and 3, the last two shifted; one along x; a frustum from the eye (0, 0, -1) to z = 9.
+TEST_CASE("area_lookup: of the areas that hold the origin and that the ray follows the one it leaves last") {
+    // Boxes along z from 0 to 1, 3, 2 and 3, the last two shifted; one along x; a frustum from the eye (0, 0, -1) to z
+    // = 9.
     std::vector<InfluenceArea> areas(6);
     const double far[] = {1, 3, 2, 3, 3};
     for (int i = 0; i < 5; ++i) {

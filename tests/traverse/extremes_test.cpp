@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays and scenes at the ends of float: slivers, grazing rays, triangles of random bits, all scales, and rays from far away.
+// Rays and scenes at the ends of float: slivers, grazing rays, triangles of random bits, all scales, and rays from far
+// away.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -41,7 +42,7 @@ std::size_t check_trees(const Scene& scene, const std::vector<Ray>& rays) {
     const std::vector<Hit> one = BruteForce(scene, Levels::one).closest_hits(rays);
     const std::vector<Hit> two = BruteForce(scene, Levels::two).closest_hits(rays);
     const Buffer<Ray> queries = upload(device, rays, "rays");
-    const Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
+    Buffer<Hit> hits = make_buffer<Hit>(device, rays.size(), "hits");
     for (const BuildOptions& options : all_trees()) {
         CAPTURE(name(options.levels));
         CAPTURE(name(options.builder));
@@ -137,7 +138,8 @@ TEST_CASE("extremes: rays from far away hit what exact arithmetic says and cost 
     double near_volumes = 0.0;
     for (const float away : {4.0f, 1e3f, 1e5f, 1e7f, 1e12f, 1e18f}) {
         CAPTURE(away);
-        // Origins are multiples of a direction of few bits, so that they are exactly on one line with those 4 of it away.
+        // Origins are multiples of a direction of few bits, so that they are exactly on one line with those 4 of it
+        // away.
         const float step = std::exp2(std::round(std::log2(away)));
         Random random(84); // the same lines from everywhere
         std::vector<Ray> rays, near;
@@ -192,7 +194,7 @@ TEST_CASE("extremes: t is that of the plane to a few units in the last place, an
         const Mesh one{"", {middle - side - 0.5f * up, middle + side + 0.3f * d - 0.4f * up, middle + up}, {{0, 1, 2}}};
         const Ray ray = ray_from({0, 0, 0}, d);
         const Hit found = BruteForce(single(one), Levels::one).closest_hit(ray);
-        const ExactHit exact = exact_hit(ray, corners(one)[0]);
+        const ExactIntersection exact = exact_intersection(ray, corners(one)[0]);
         REQUIRE((found.primitive == 0) == exact.inside);
         if (exact.inside) CHECK(std::fabs(static_cast<double>(found.t - exact.t)) <= 8 * 0x1p-22);
     }

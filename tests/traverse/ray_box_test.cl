@@ -6,8 +6,9 @@
 #include "traverse/ray_box.h"
 
 /// out[i]: 1 when rays[i] enters boxes[i], and entries[i] where; both for the interval of the ray.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_box_test(
-    global const Ray* rays, global const Aabb* boxes, uint count, global uint* out, global float* entries) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void ray_box_test(global const Ray* rays, global const Aabb* boxes, uint count, global uint* out,
+                  global float* entries) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const float4 origin = vload4(0, rays[i].origin);
@@ -20,8 +21,9 @@ kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_box_test
 }
 
 /// out[i]: the lanes of nodes[i] that rays[i] enters, and entries[8 * i + lane] where.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_box8_test(
-    global const Ray* rays, global const Wide8Node* nodes, uint count, global uint* out, global float* entries) {
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void ray_box8_test(global const Ray* rays, global const Wide8Node* nodes, uint count, global uint* out,
+                   global float* entries) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const float4 origin = vload4(0, rays[i].origin);

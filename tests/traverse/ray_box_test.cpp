@@ -94,7 +94,7 @@ Slab slabs_in_double(const Ray& ray, const Aabb& box) {
 
 } // namespace
 
-TEST_CASE("ray box: conservative and tight on random boxes, also flat ones and from inside") {
+TEST_CASE("ray_box: conservative and tight on random boxes, also flat ones and from inside") {
     Random random(10);
     const std::uint32_t count = small_sizes() ? 200 : 20000;
     std::vector<Ray> rays = random_rays(random, count, 1.0f);
@@ -130,7 +130,7 @@ TEST_CASE("ray box: conservative and tight on random boxes, also flat ones and f
     CHECK(loose == 0);
 }
 
-TEST_CASE("ray box: zero, denormal and huge components, faces, edges and corners") {
+TEST_CASE("ray_box: zero, denormal and huge components, faces, edges and corners") {
     const Aabb cube{{-1, -1, -1}, {1, 1, 1}};
     const Aabb flat{{-1, -1, 0}, {1, 1, 0}};
     const Aabb empty{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};

@@ -129,7 +129,7 @@ bool same(const RayVisits& a, const RayVisits& b) {
 
 } // namespace
 
-TEST_CASE("ray cost: every count is that of plain recursion, hits are those of brute force") {
+TEST_CASE("ray_cost: every count is that of plain recursion, hits are those of brute force") {
     // One and two primitives are a leaf or a root of leaves; the last makes stacks and slices.
     for (const std::uint32_t count : {1u, 2u, 3u, 64u, small_sizes() ? 65u : 3000u}) {
         for (const std::uint32_t leaf_size : {1u, 2u, 5u}) {
@@ -144,7 +144,8 @@ TEST_CASE("ray cost: every count is that of plain recursion, hits are those of b
             CHECK(count_different(hits, BruteForce(scene, Levels::one).closest_hits(rays)) == 0);
             std::size_t wrong = 0, compared = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                // Where rounding may decide, that is where a little wider or narrower boxes give other counts, nothing is said.
+                // Where rounding may decide, that is where a little wider or narrower boxes give other counts, nothing
+                // is said.
                 const Reference wide(tree, rays[i], 1e-5), narrow(tree, rays[i], -1e-5);
                 if (!same(wide.visits, narrow.visits)) continue;
                 ++compared;
@@ -156,7 +157,7 @@ TEST_CASE("ray cost: every count is that of plain recursion, hits are those of b
     }
 }
 
-TEST_CASE("ray cost: a hit hides what is behind it from the search alone") {
+TEST_CASE("ray_cost: a hit hides what is behind it from the search alone") {
     // Ten parallel squares' halves, one behind the other, met in their middle.
     Mesh mesh;
     for (int i = 0; i < 10; ++i) {
@@ -180,7 +181,7 @@ TEST_CASE("ray cost: a hit hides what is behind it from the search alone") {
     for (int i = 1; i < 3; ++i) CHECK(same(visits[i], RayVisits{}));
 }
 
-TEST_CASE("ray cost: no primitives, no visits") {
+TEST_CASE("ray_cost: no primitives, no visits") {
     Device& device = test_device();
     Topology topology;
     const Guarded<RayVisits> visits(device, 3);

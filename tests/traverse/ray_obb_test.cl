@@ -4,10 +4,11 @@
 #include "shared/ray.h"
 #include "traverse/ray_obb.h"
 
-/// out[i]: 1 when rays[i] enters the volume of slot i % 2 of nodes[i] in the ray's interval, and entries[i] where, both as
-/// traversal has them: with the direction scaled.
-kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void ray_obb_test(
-    global const Ray* rays, global const OrientedNode* nodes, uint count, global uint* out, global float* entries) {
+/// out[i]: 1 when rays[i] enters the volume of slot i % 2 of nodes[i] in the ray's interval, and entries[i] where, both
+/// as traversal has them: with the direction scaled.
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
+void ray_obb_test(global const Ray* rays, global const OrientedNode* nodes, uint count, global uint* out,
+                  global float* entries) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const float4 origin = vload4(0, rays[i].origin);

@@ -172,7 +172,7 @@ const std::vector<Scale> scales = {
 
 } // namespace
 
-TEST_CASE("ray obb: conservative and tight at every scale, turned, sheared, flat, from inside and along faces") {
+TEST_CASE("ray_obb: conservative and tight at every scale, turned, sheared, flat, from inside and along faces") {
     // 20,000 of each: every arrangement of random_ray, which are a few hundred, with every kind of box.
     const std::uint32_t count = small_sizes() ? 200 : 20000;
     for (const Scale& scale : scales) {
@@ -200,7 +200,7 @@ TEST_CASE("ray obb: conservative and tight at every scale, turned, sheared, flat
     }
 }
 
-TEST_CASE("ray obb: zero, denormal, huge and invalid components, faces, edges and corners") {
+TEST_CASE("ray_obb: zero, denormal, huge and invalid components, faces, edges and corners") {
     // Exact numbers: a box turned by a quarter about z, with half sizes 1, 2 and 3 along y, -x and z.
     const Obb turned{{0, 0, 0}, {1, 2, 3}, {0, 1, 0, -1, 0, 0, 0, 0, 1}, 0};
     const Obb flat{{0, 0, 0}, {0, 2, 3}, {0, 1, 0, -1, 0, 0, 0, 0, 1}, 0};

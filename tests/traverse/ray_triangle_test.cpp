@@ -40,8 +40,9 @@ std::vector<Ray> scaled(std::vector<Ray> rays, int k) {
 
 } // namespace
 
-TEST_CASE("brute force: of many triangles, the hit that double precision finds among all") {
-    // Clusters, so that most blocks of triangles are far from a ray, and instances that are turned, stretched and mirrored.
+TEST_CASE("ray_triangle: brute force: of many triangles, the hit that double precision finds among all") {
+    // Clusters, so that most blocks of triangles are far from a ray, and instances that are turned, stretched and
+    // mirrored.
     Random random(22);
     Scene scene = instanced_scene(random, 2, small_sizes() ? 2 : 5, 0);
     for (Mesh& mesh : scene.meshes) {
@@ -87,7 +88,7 @@ TEST_CASE("brute force: of many triangles, the hit that double precision finds a
     CHECK(wrong == 0);
 }
 
-TEST_CASE("ray triangle: agrees with double precision") {
+TEST_CASE("ray_triangle: agrees with double precision") {
     Random random(20);
     const std::uint32_t count = small_sizes() ? 100 : 4000;
     const std::vector<Ray> rays = random_rays(random, count, 1.0f);
@@ -120,7 +121,7 @@ TEST_CASE("ray triangle: agrees with double precision") {
     }
 }
 
-TEST_CASE("traversal: a scene times 2^k gives the same bits") {
+TEST_CASE("ray_triangle: traversal: a scene times 2^k gives the same bits") {
     Random random(21);
     const Scene scene = instanced_scene(random, 2, small_sizes() ? 3u : 20u, small_sizes() ? 10u : 60u);
     const std::vector<Ray> rays = random_rays(random, small_sizes() ? 40u : 1000u, 2.0f);
@@ -135,7 +136,7 @@ TEST_CASE("traversal: a scene times 2^k gives the same bits") {
     }
 }
 
-TEST_CASE("traversal: directions of any length, t in their units") {
+TEST_CASE("ray_triangle: traversal: directions of any length, t in their units") {
     Random random(22);
     const Scene scene = single(random_mesh(random, 200, 0.4f));
     std::vector<Ray> rays = random_rays(random, small_sizes() ? 40u : 400u, 1.0f);
@@ -160,7 +161,7 @@ TEST_CASE("traversal: directions of any length, t in their units") {
     }
 }
 
-TEST_CASE("traversal: rays that are not valid hit nothing") {
+TEST_CASE("ray_triangle: traversal: rays that are not valid hit nothing") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Ray good{{0.2f, 0.2f, -1}, 0, {0, 0, 1}, 2};
     std::vector<Ray> rays{good};

@@ -63,9 +63,9 @@ std::size_t count_wrong(const std::vector<Hit>& hits, const std::vector<Hit>& ex
     return wrong;
 }
 
-/// All four kinds of tree of AABBs, two levels first; of many triangles in one level only the usual one. Scenes that are quick also
-/// get oriented boxes: the kinds in turn, as each scene counts in `turn`, so that all kinds meet many scenes at the cost of two more
-/// trees.
+/// All four kinds of tree of AABBs, two levels first; of many triangles in one level only the usual one. Scenes that
+/// are quick also get oriented boxes: the kinds in turn, as each scene counts in `turn`, so that all kinds meet many
+/// scenes at the cost of two more trees.
 std::vector<Kind> kinds_for(std::uint64_t triangles, std::size_t turn) {
     if (triangles > 5'000'000) return {all_kinds[2], all_kinds[3], all_kinds[1]};
     std::vector<Kind> kinds{all_kinds[2], all_kinds[3], all_kinds[0], all_kinds[1]};
@@ -121,7 +121,7 @@ void check_scene(const Scene& scene, std::size_t turn) {
 
 } // namespace
 
-TEST_CASE("real scenes: closest hits equal brute force, any hits agree") {
+TEST_CASE("real_scenes: closest hits equal brute force, any hits agree") {
     if (scenes_folder().empty() || small_sizes()) {
         MESSAGE("skipped: real scenes (BOXWOOD_SCENES is not set, or sizes are kept small)");
         return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes with something small beside something large, whose small part may share one Morton code: what near rays cost in the
-// trees of the default builder, those of the surface area heuristic being the measure.
+// Scenes with something small beside something large, whose small part may share one Morton code: what near rays cost
+// in the trees of the default builder, those of the surface area heuristic being the measure.
 #include <doctest/doctest.h>
 
 #include <cmath>

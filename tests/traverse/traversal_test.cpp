@@ -171,8 +171,8 @@ TEST_CASE("traversal: the deepest tree fills the stack and no more") {
 }
 
 TEST_CASE("traversal: built trees that are as deep as builders make them") {
-    // Each triangle more than twice as far and as large as the one before: halves in space part off one at a time, and what is
-    // left below max_levels of 100 is halved by number.
+    // Each triangle more than twice as far and as large as the one before: halves in space part off one at a time, and
+    // what is left below max_levels of 100 is halved by number.
     Mesh mesh;
     std::vector<Ray> rays;
     for (double at = 0x1p-60; at < 0x1p58; at *= 2.1) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed surfaces hold every ray, the same whatever the tree; boxwood-benchmark-watertight does it for as long as asked.
+// Closed surfaces hold every ray, the same whatever the tree; boxwood-benchmark-watertight does it for as long as
+// asked.
 #include <doctest/doctest.h>
 
 #include "boxwood/build.hpp"

@@ -73,7 +73,7 @@ std::pair<Scene, TreeImage> chain(std::uint32_t count) {
 
 } // namespace
 
-TEST_CASE("names of layouts and levels go both ways") {
+TEST_CASE("tree_image: names of layouts and levels go both ways") {
     for (const Layout layout : {Layout::binary, Layout::wide8}) CHECK(to_layout(name(layout)) == layout);
     for (const Levels levels : {Levels::automatic, Levels::one, Levels::two}) CHECK(to_levels(name(levels)) == levels);
     CHECK(name(Layout::wide8) == "wide8");
@@ -82,7 +82,7 @@ TEST_CASE("names of layouts and levels go both ways") {
     CHECK_THROWS_WITH_AS(to_levels(""), "levels: unknown word; use one of auto, one, two", InputError);
 }
 
-TEST_CASE("the sample trees are valid and have the depths that their sizes give") {
+TEST_CASE("tree_image: the sample trees are valid and have the depths that their sizes give") {
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
         for (const Levels levels : {Levels::one, Levels::two})
             CHECK(refused_at(layout, levels, [](auto&) {}) == "accepted");
@@ -98,7 +98,7 @@ TEST_CASE("the sample trees are valid and have the depths that their sizes give"
     CHECK(sample_tree(scene, Layout::binary, Levels::two).top_depth == 2);
 }
 
-TEST_CASE("influence areas with their trees and an index are valid, and what is wrong with one is named") {
+TEST_CASE("tree_image: influence areas with their trees and an index are valid, and what is wrong with one is named") {
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
         const auto area = [&](auto&& change) {
             return refused_at(layout, Levels::one, [&](TreeImage& t) {
@@ -151,7 +151,7 @@ TEST_CASE("influence areas with their trees and an index are valid, and what is 
     }
 }
 
-TEST_CASE("an empty tree is valid for an empty scene only") {
+TEST_CASE("tree_image: an empty tree is valid for an empty scene only") {
     for (const Layout layout : {Layout::binary, Layout::wide8}) {
         TreeImage local = sample_tree(sample_scene(), layout, Levels::one);
         add_sample_area(local); // whose tree is not there
@@ -170,7 +170,7 @@ TEST_CASE("an empty tree is valid for an empty scene only") {
     }
 }
 
-TEST_CASE("arrays of the other layout or of the other number of levels are refused") {
+TEST_CASE("tree_image: arrays of the other layout or of the other number of levels are refused") {
     CHECK(binary([](TreeImage& t) { t.wide_nodes.resize(1); }) != "accepted");
     CHECK(binary([](TreeImage& t) { t.blocks.resize(1); }) != "accepted");
     CHECK(binary([](TreeImage& t) { t.wide_top.resize(1); }) != "accepted");
@@ -196,7 +196,7 @@ TEST_CASE("arrays of the other layout or of the other number of levels are refus
     CHECK(one([](TreeImage& t) { t.blocks.clear(); }) == "blocks");
 }
 
-TEST_CASE("a reference that leaves its array, repeats or turns back is refused") {
+TEST_CASE("tree_image: a reference that leaves its array, repeats or turns back is refused") {
     // Node 0 is the tree of the one-triangle mesh, node 1 the root of the other.
     const auto end = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     CHECK(binary([&](TreeImage& t) { t.binary_nodes[1].child[0] = end(t.binary_nodes); }) ==
@@ -219,7 +219,7 @@ TEST_CASE("a reference that leaves its array, repeats or turns back is refused")
     CHECK(wide([](TreeImage& t) { t.wide_top[0].child[1] = t.wide_top[0].child[0]; }) == "wide_top[0].child[1]");
 }
 
-TEST_CASE("a wide child before its parent is refused") { // refit goes through the array backwards
+TEST_CASE("tree_image: a wide child before its parent is refused") { // refit goes through the array backwards
     CHECK(wide([](TreeImage& t) {
               // Swaps the root of the second mesh, node 1, with its first child node.
               std::uint32_t* slot = t.wide_nodes[1].child;
@@ -231,14 +231,14 @@ TEST_CASE("a wide child before its parent is refused") { // refit goes through t
           }).starts_with("wide_nodes["));
 }
 
-TEST_CASE("the stated depth must be exact") {
+TEST_CASE("tree_image: the stated depth must be exact") {
     CHECK(binary([](TreeImage& t) { ++t.bottom_depth; }) == "bottom_depth");
     CHECK(binary([](TreeImage& t) { --t.bottom_depth; }) == "bottom_depth");
     CHECK(wide([](TreeImage& t) { ++t.top_depth; }) == "top_depth");
     CHECK(wide([](TreeImage& t) { t.top_depth = 0; }) == "top_depth");
 }
 
-TEST_CASE("a mesh without an instance may be the deepest, within the number of nodes") {
+TEST_CASE("tree_image: a mesh without an instance may be the deepest, within the number of nodes") {
     const auto unplace = [](TreeImage& tree, Scene& scene) { // keeps the two instances of the one-triangle mesh
         scene.instances.erase(scene.instances.begin() + 1);
         const TreeImage smaller = sample_tree(scene, tree.layout, tree.levels);
@@ -255,7 +255,7 @@ TEST_CASE("a mesh without an instance may be the deepest, within the number of n
           }) == "bottom_depth");
 }
 
-TEST_CASE("boxes that no ray test can use are refused") {
+TEST_CASE("tree_image: boxes that no ray test can use are refused") {
     CHECK(binary([](TreeImage& t) { t.binary_nodes[1].bounds[1].max[2] = not_a_number; }) ==
           "binary_nodes[1].child[1]");
     CHECK(binary([](TreeImage& t) { t.binary_nodes[1].bounds[0].min[0] = infinity; }) == "binary_nodes[1].child[0]");
@@ -263,7 +263,7 @@ TEST_CASE("boxes that no ray test can use are refused") {
     CHECK(wide([](TreeImage& t) { t.wide_top[0].max_z[0] = -infinity; }) == "wide_top[0].child[0]");
 }
 
-TEST_CASE("oriented boxes that no ray test can use are refused") {
+TEST_CASE("tree_image: oriented boxes that no ray test can use are refused") {
     // Node 0 is the tree over one triangle. In the sample, slots with even references are aligned, the others are not.
     const auto slot_of = [](const TreeImage& t, bool aligned) {
         for (std::uint32_t node = 1; node < t.oriented_nodes.size(); ++node)
@@ -304,7 +304,7 @@ TEST_CASE("oriented boxes that no ray test can use are refused") {
     CHECK(oriented([](TreeImage& t) { t.oriented_top.clear(); }) == "oriented_top");
 }
 
-TEST_CASE("a slot that is not in use must be empty") {
+TEST_CASE("tree_image: a slot that is not in use must be empty") {
     CHECK(binary([](TreeImage& t) { t.binary_nodes[0].bounds[1].min[0] = 0; }) == "binary_nodes[0].child[1]");
     CHECK(wide([](TreeImage& t) { t.wide_nodes[0].child[5] = 1; }) == "wide_nodes[0].child[5]");
     CHECK(wide([](TreeImage& t) { t.wide_nodes[0].max_x[5] = not_a_number; }) == "wide_nodes[0].child[5]");
@@ -316,7 +316,7 @@ TEST_CASE("a slot that is not in use must be empty") {
     CHECK(binary([](TreeImage& t) { t.binary_nodes[1].reserved[1] = 1; }) == "binary_nodes[1]");
 }
 
-TEST_CASE("a leaf must name each primitive of its mesh once") {
+TEST_CASE("tree_image: a leaf must name each primitive of its mesh once") {
     CHECK(binary([](TreeImage& t) { t.triangles[0].primitive = 1; }) == "triangles[0]"); // of a mesh of one
     CHECK(binary([](TreeImage& t) { t.triangles[1].primitive = 37; }) == "triangles[1]");
     CHECK(binary([](TreeImage& t) { t.triangles[1].primitive = 36; }).starts_with("triangles["));
@@ -334,7 +334,7 @@ TEST_CASE("a leaf must name each primitive of its mesh once") {
     CHECK(one([](TreeImage& t) { t.triangles[0].primitive = 38; }).starts_with("triangles["));
 }
 
-TEST_CASE("a tree that leaves out primitives or instances is refused") {
+TEST_CASE("tree_image: a tree that leaves out primitives or instances is refused") {
     CHECK(wide([](TreeImage& t) { // drops the last slot of the second mesh's root
               Wide8Node& root = t.wide_nodes[1];
               root.count = 7;
@@ -346,7 +346,7 @@ TEST_CASE("a tree that leaves out primitives or instances is refused") {
     CHECK(binary([](TreeImage& t) { t.binary_top[0] = t.binary_top[1]; }) == "binary_top");
 }
 
-TEST_CASE("one level over several instances must say where each one's triangles start") {
+TEST_CASE("tree_image: one level over several instances must say where each one's triangles start") {
     const auto one = [](auto&& change) { return refused_at(Layout::wide8, Levels::one, change); };
     CHECK(one([](TreeImage& t) { t.first_triangles.clear(); }) == "first_triangles");
     CHECK(one([](TreeImage& t) { t.first_triangles.push_back(39); }) == "first_triangles");
@@ -359,7 +359,7 @@ TEST_CASE("one level over several instances must say where each one's triangles 
     CHECK_THROWS_AS(validate(tree, scene, "file"), InputError);
 }
 
-TEST_CASE("an instance record must agree with the scene") {
+TEST_CASE("tree_image: an instance record must agree with the scene") {
     CHECK(wide([](TreeImage& t) { t.instances.pop_back(); }) == "instances");
     CHECK(wide([](TreeImage& t) { t.instances[1].mesh = 0; }) == "instances[1]");
     CHECK(wide([](TreeImage& t) { t.instances[1].mesh = 2; }) == "instances[1]");
@@ -372,7 +372,7 @@ TEST_CASE("an instance record must agree with the scene") {
     CHECK(wide([](TreeImage& t) { t.instances[1].root = BOXWOOD_NONE; }) == "instances[1].root");
 }
 
-TEST_CASE("a tree as deep as it has nodes is walked without recursion") {
+TEST_CASE("tree_image: a tree as deep as it has nodes is walked without recursion") {
     // 200,000 nested calls would pass the usual 8 MiB of stack.
     auto [scene, tree] = chain(200000);
     CHECK_NOTHROW(validate(tree, scene, "file"));
@@ -380,7 +380,8 @@ TEST_CASE("a tree as deep as it has nodes is walked without recursion") {
     CHECK_THROWS_AS(validate(tree, scene, "file"), InputError);
 }
 
-TEST_CASE("a small tree for a scene of very many instanced triangles is refused without taking memory for them") {
+TEST_CASE(
+    "tree_image: a small tree for a scene of very many instanced triangles is refused without taking memory for them") {
     auto [scene, tree] = chain(1000);
     scene.instances.resize(std::size_t{1} << 16, scene.instances[0]);
     CHECK_THROWS_AS(validate(tree, scene, "file"), InputError);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes of trees at the extremes: every kind holds every primitive in every ancestor, checked in double precision.
+// Oriented boxes of trees at the extremes: every kind holds every primitive in every ancestor, checked in double
+// precision.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -111,8 +112,8 @@ std::size_t count_malformed(const std::vector<Obb>& boxes) {
 } // namespace
 
 TEST_CASE("obb_volumes: at the extremes every kind holds every primitive in every ancestor") {
-    // Sizes around those where code paths change: 1, 2, 3, a vector's 8 and 9, more than it takes for a node to be refined
-    // (256), and to be cut in chunks (4096).
+    // Sizes around those where code paths change: 1, 2, 3, a vector's 8 and 9, more than it takes for a node to be
+    // refined (256), and to be cut in chunks (4096).
     std::vector<ExtremeMesh> extremes = extreme_meshes(small_sizes() ? 12 : 300, test_seed());
     for (const std::size_t count : {1, 2, 3, 8, 9})
         extremes.push_back({std::to_string(count) + " triangles", cube_of_triangles(count, count)});

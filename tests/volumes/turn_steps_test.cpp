@@ -12,7 +12,7 @@ using namespace boxwood::test;
 
 TEST_SUITE_BEGIN("volumes");
 
-TEST_CASE("turn steps: cosines and sines of the angles, correctly rounded") {
+TEST_CASE("turn_steps: cosines and sines of the angles, correctly rounded") {
     Guarded<float> steps(test_device(), 32);
     launch(test_device(), {"volumes/turn_steps_test.cl", "turn_steps_test"}, "turn steps", 1, steps.view());
     const std::vector<float> found = steps.values();
