@@ -9,7 +9,7 @@
 // AREAS           1: influence areas with trees of their own, searched first; one level only.
 // INTERSECTOR     0: the watertight triangle test; 1: that of Moller and Trumbore.
 // STATISTICS      1: count the volumes and primitives tested.
-// STACK_SIZE      Entries of the stack, see stack.h.
+// STACK_SIZE      Entries of the stack, see stack_entries() in host/traverse/specialise.hpp.
 // PORTABLE_LANES  See runtime/lanes.h.
 #ifndef BOXWOOD_TRAVERSE_CONFIG_H
 #define BOXWOOD_TRAVERSE_CONFIG_H
