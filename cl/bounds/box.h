@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A box in registers, read and written as two vectors (six packed floats, nothing beyond them).
+// A box in registers, loaded and stored as two vectors (exactly six packed floats, nothing beyond them).
 #ifndef BOXWOOD_BOUNDS_BOX_H
 #define BOXWOOD_BOUNDS_BOX_H
 #include "runtime/numerics.h"

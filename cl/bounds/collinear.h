@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles of no area. Sheared along a ray (traverse/ray_triangle.h) their vertices are rounded and may span one, so
-// they are told from others where leaves are made, exactly.
+// Detects triangles without area, exactly, when leaves are made: once sheared along a ray (traverse/ray_triangle.h)
+// their rounded vertices may span an area.
 #ifndef BOXWOOD_BOUNDS_COLLINEAR_H
 #define BOXWOOD_BOUNDS_COLLINEAR_H
 #include "runtime/expansion.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Eigenvectors of symmetric 3x3 matrices by Jacobi's method (Golub and Van Loan, 8.5): a bounded number of plane
-// rotations, each of which is orthogonal whatever the matrix, so that repeated and zero eigenvalues need no special
-// case.
+// rotations, each orthogonal whatever the matrix, so repeated and zero eigenvalues need no special case.
 #ifndef BOXWOOD_BOUNDS_EIGEN_H
 #define BOXWOOD_BOUNDS_EIGEN_H
 #include "runtime/vector.h"

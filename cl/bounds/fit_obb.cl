@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Oriented boxes of segments of points or triangles by principal component analysis (dissertation 3.1.3; Gottschalk
-// 2000; for triangles continuous over the surface, as there). These kernels are what lies between segmented reductions:
-// each element leaves a value, the reduction makes one of a segment's, and the next kernel starts from that.
+// 2000; for triangles continuous over the surface, as there). These kernels run between segmented reductions: one
+// writes a value per element, the reduction combines those of each segment, and the next kernel starts from the result.
 //
-// A segment computes in the space of its AABB (bounds/oriented_box.h). Second moments are taken about the mean, in a
-// pass after the one that finds it, so that nothing cancels wherever the mean lies.
+// Computations for a segment are in the space of its AABB (bounds/oriented_box.h). Second moments are taken about the
+// mean, in a pass after the one that finds it, so that nothing cancels wherever the mean lies.
 //
 // GROUP_SIZE  work-items per group, 1 or more
 // CORNERS     vertices per element: 1 for points, 3 for triangles

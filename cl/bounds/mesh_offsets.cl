@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes as segments of the triangles of all meshes.
+// Where each mesh begins in the array of all triangles: meshes as segments of it.
 // compile:
 #include "shared/instance.h"
 

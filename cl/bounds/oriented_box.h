@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Oriented boxes in registers, LANES at a time: reading, writing, and what a node does with a fitted frame: extents
-// with a bound on their rounding, centre, and the choice between the box and the node's AABB (dissertation 3.1.3 and
-// 3.5).
+// Oriented boxes in registers, LANES at a time: load, store, and what turns a fitted frame into a node's box: extents
+// with a bound on their rounding, the centre, and the choice between that box and the node's AABB (dissertation 3.1.3
+// and 3.5).
 //
-// A node computes in a space of its own, p' = (p - origin) / unit, with the centre of its AABB and a power of two near
-// its size, so that nothing overflows, what underflows is far below rounding, digits are kept far from the origin, and
-// a scene scaled by a power of two gives the same bits.
+// Each node has a space of its own, p' = (p - origin) / unit, with the centre of its AABB as origin and a power of two
+// near its size as unit: nothing overflows, what underflows is far below rounding, no digits are lost far from the
+// world's origin, and a scene scaled by a power of two gives the same bits.
 //
 // MEASURE_AREA  0: the smaller volume is kept; 1: the smaller surface area
 // FALLBACK      1: a node keeps its AABB where its oriented box is not smaller; 0: never

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far off a hit in the object space of an instance may be in world space.
+// Bounds the error, in world space, of a hit computed in the object space of an instance.
 #ifndef BOXWOOD_BOUNDS_PLACEMENT_H
 #define BOXWOOD_BOUNDS_PLACEMENT_H
 #include "runtime/numerics.h"

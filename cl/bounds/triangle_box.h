@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The box that trees keep of a triangle: around every point at which a ray may be said to hit it.
+// The box of a triangle in trees: padded to contain every point at which a ray may be reported to hit it.
 #ifndef BOXWOOD_BOUNDS_TRIANGLE_BOX_H
 #define BOXWOOD_BOUNDS_TRIANGLE_BOX_H
 #include "runtime/numerics.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A box of small surface area around a few points, by turning a frame about one of its axes at a time.
+// Finds a box of small surface area around a few points by rotating a frame about one of its axes at a time.
 #ifndef BOXWOOD_BOUNDS_TURN_H
 #define BOXWOOD_BOUNDS_TURN_H
 #include "bounds/eigen.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Axes for segments whose principal axes are hardly determined, such as those of a cube, a sphere or a square: the
-// vertices that reach farthest in 26 directions stand for the segment, and a frame is turned about each of its axes
-// until the box around them is smallest. Starts and rounds are few and fixed in number. The starts are those of DiTO
-// (Larsson and Kallberg 2011) beside the principal and the world's axes.
+// Axes for segments whose principal axes are ill-determined, such as those of a cube, a sphere or a square: the
+// vertices that reach farthest in 26 directions represent the segment, and a frame is rotated about each of its axes in
+// turn until the box around them is smallest. The numbers of starts and of rounds are small and fixed. The starts are
+// those of DiTO (Larsson and Kallberg 2011), the principal axes and the axes of the world.
 //
 // GROUP_SIZE, CORNERS, LANES, MEASURE_AREA, FALLBACK   as in fit_obb.cl
 // compile: CORNERS=1 LANES=1 MEASURE_AREA=1 FALLBACK=0

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The triangles that reach into the region of an influence area, by separating axes in the coordinates of the area.
+// Finds the triangles that reach into the region of an influence area, by separating axes in the coordinates of the
+// area.
 //
-// A triangle is left out only when an axis n is found along which it is apart from the region by more than `margin`.
-// Any axis will do, so rounding of n is no matter. With e = 2^-24, N the sum of n's magnitudes, D the largest sum of
+// A triangle is left out only when, along some axis n, it is apart from the region by more than `margin`. Any axis will
+// do, so the rounding of n does not matter. With e = 2^-24, N the sum of n's magnitudes, D the largest sum of
 // the magnitudes of what separates a corner from the area's origin and R that of the region's points, a corner's
 // coordinates are off by at most 4 e D, its place along n by 4 e D N + 3 e D N, and the region's ends by 6 e R N. Where
 // rays are in the region by influence.h, points are outside it by at most 24 e R (1 + t) at each side, so along n by 24

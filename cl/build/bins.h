@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bins of a node's extent along each axis, and the boxes and counts of the primitives in them. All of it by minima,
-// maxima and counts, so that the order of the work does not show.
+// Bins of a node's extent along each axis, with the boxes and counts of the primitives in them. Only minima, maxima and
+// counts are used, so the result does not depend on the order of the work.
 //
 // BINS              most bins along an axis
 // BIN_BOX           1: bins of the node's box; 0: of the box of its primitives' centres, fewer for small nodes

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which subtrees cost less as one leaf: the cost model decides at every node, bottom-up, rather than a number of
-// primitives.
+// Decides bottom-up, by the cost model rather than by a number of primitives, which subtrees become one leaf.
 //
 // compile:
 #include "runtime/numerics.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far apart neighbours in sorted order are: what a linear BVH is made from.
+// The gap between neighbours in sorted order, from which a linear BVH is built.
 #ifndef BOXWOOD_BUILD_GAPS_H
 #define BOXWOOD_BUILD_GAPS_H
 

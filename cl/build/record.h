@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Records of primitives as the top-down builder moves them: bounds in one vector, and the index in a lane that they
-// leave free.
+// Records of primitives as the top-down builder moves them: one vector with the bounds and, in the lane they leave
+// free, the index.
 //
-// OWN_CENTRES  1: primitives go by `centres`, 3 floats each; 0: by the middles of their boxes
+// OWN_CENTRES  1: primitives are placed by `centres`, 3 floats each; 0: by the centres of their boxes
 #ifndef BOXWOOD_BUILD_RECORD_H
 #define BOXWOOD_BUILD_RECORD_H
 #include "bounds/box.h"

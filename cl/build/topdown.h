@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the top-down builder share: how nodes are written, and how large ones are cut into chunks.
+// Common to the kernels of the top-down builder: writing nodes, and cutting large ones into chunks.
 //
 // Macros: build/record.h.
 #ifndef BOXWOOD_BUILD_TOPDOWN_H

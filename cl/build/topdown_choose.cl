@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The large nodes of one level of a top-down build: the plane that the strategy splits each at.
+// Chooses the plane at which the strategy splits each large node of one level of a top-down build.
 //
 // Macros: build/split.h.
 // compile: BINS=32 BIN_BOX=0 PRIMITIVES_PER_BIN=16u BLOCK_SIZE=4 OWN_CENTRES=0 MEASURE=surface_measure COST=measured_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes

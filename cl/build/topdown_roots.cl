@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is before and after the levels of a top-down build, whatever its strategy: topdown_records, topdown_seed, scans
-// of what it counted, topdown_emit_roots, topdown_measure, topdown_roots; in the end topdown_sum_marks.
+// The steps of a top-down build before and after its levels, which do not depend on the strategy: topdown_records,
+// topdown_seed, scans of what it counted, topdown_emit_roots, topdown_measure, topdown_roots; finally
+// topdown_sum_marks.
 //
 // Macros: build/record.h.
 // compile: OWN_CENTRES=0

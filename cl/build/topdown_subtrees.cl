@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole subtrees of a top-down build, each by one work-item, whose records stay in its cache: the same splits as those
-// of topdown_levels.cl. Macros: build/split.h.
+// Builds whole subtrees of a top-down build, each by one work-item, in whose cache the records stay. The splits are
+// those that topdown_levels.cl would make. Macros: build/split.h.
 // compile: BINS=32 BIN_BOX=0 PRIMITIVES_PER_BIN=16u BLOCK_SIZE=4 OWN_CENTRES=0 MEASURE=surface_measure COST=overlap_cost AXES=all_axes STOP=never FALLBACK_MEASURE=surface_measure FALLBACK_AXES=longest_axes
 // compile: BINS=16 BIN_BOX=1 PRIMITIVES_PER_BIN=1u BLOCK_SIZE=1 OWN_CENTRES=1 MEASURE=expected_measure COST=measured_cost AXES=facing_axes STOP=threshold_stop FALLBACK_MEASURE=projected_measure FALLBACK_AXES=round_robin_axes
 #include "build/split.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a builder knows of the rays that will meet a tree, and the probability that one of them meets a box.
+// The distribution of rays that a builder assumes, and the probability that one of those rays meets a box.
 #ifndef BOXWOOD_INFLUENCE_DISTRIBUTION_H
 #define BOXWOOD_INFLUENCE_DISTRIBUTION_H
 #include "influence/projected_area.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the two slots of a node of a binary layout hold.
+// The contents of the two child slots of a node in the binary layouts.
 //
 // TRIANGLE_LEAVES  1: a leaf names a triangle record by its sorted position; 0: it names the primitive itself
 #ifndef BOXWOOD_LAYOUT_CHILDREN_H

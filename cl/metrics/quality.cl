@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Surface area and volume of every node, for the metrics of a tree.
 //
-// Both are in units of `unit`, a power of two near the size of the scene, so that neither overflows or vanishes. Unused
-// slots (empty boxes) count nothing; they would otherwise poison every sum.
+// Both are in units of `unit`, a power of two near the size of the scene, so that neither overflows nor vanishes.
+// Unused slots (empty boxes) count as 0; otherwise they would spoil every sum.
 // compile:
 #include "runtime/products.h"
 #include "shared/aabb.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scan of every tile of TILE elements, started from what comes before the tile (which reduce.cl and this kernel, one
-// level up, have computed).
+// Scan of every tile of TILE elements, started from the fold of all elements before the tile (computed by reduce.cl and
+// by this kernel one level up).
 //
 // Sums of floats that are not negative never fall. Rounding is monotonic, so within a tile it is enough that every sum
 // is an earlier one, plus a sum that never falls either. What is before the next tile is added up in another order: no

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Samples added up, pixel by pixel. A film has FILM_FLOATS floats for each pixel of the picture, in packets of 8
+// Accumulates samples per pixel. A film has FILM_FLOATS floats for each pixel of the picture, in packets of 8
 // consecutive pixels: the first float of all 8, the second, ...; the last packet is whole. The floats of a pixel are
 //
 //     sum of each of SUMS values, what rounding lost of each sum (Kahan 1965), mean of the luminance, sum of its
 //     squared differences from the mean (Welford 1962), number of samples
 //
-// so that a million samples of one brightness lose no more digits than one. SUMS = 3 * LIGHTS + AO: R, G, B of each
+// so that a million samples of equal brightness lose no more digits than one. SUMS = 3 * LIGHTS + AO: R, G, B of each
 // part of the light, then the fraction of the ambient light that is not occluded.
 //
 // LIGHTS      1 to 3: parts of the light; their sum is what is seen.

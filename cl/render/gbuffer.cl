@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hits turned into the planes of a G-buffer. Macros: render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
+// Turns hits into the planes of a G-buffer. Macros: render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
 //
 // PLANES      which planes there are, one bit each: 1 position, 2 geometric normal, 4 shading normal, 8 albedo, 16
 //             depth, 32 derivatives of texture coordinates, 64 material, 128 instance, 256 primitive. The others may be

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A binary tree over the lights of a scene, by which one is chosen for a place (Conty Estevez and Kulla 2018): from the
-// root down, each child with its probability of what both may send there, whatever is in between and whichever way the
-// surface faces.
+// A binary tree over the lights of a scene, from which one is sampled for a place (Conty Estevez and Kulla 2018): from
+// the root down, a child is taken with a probability in proportion to the light that it may send there, regardless of
+// occlusion and of the way the surface faces.
 #ifndef BOXWOOD_RENDER_LIGHT_TREE_H
 #define BOXWOOD_RENDER_LIGHT_TREE_H
 #include "runtime/vector.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadow rays through surfaces that let light pass: each hit takes its fraction, and the ray goes on behind it. Macros:
-// render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
+// Shadow rays through surfaces that transmit light: each hit absorbs its fraction, and the ray goes on behind it.
+// Macros: render/scene_arrays.h, render/texture.h when TEXTURES is 1, and
 //
 // LANES       1
 // GROUP_SIZE  work-items per work-group.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queues of rays between the stages: what shadow rays bring, and closing the gaps of those that ended.
+// Queues of rays between the stages: adds the light of shadow rays, and compacts the queue after some rays have ended.
 //
 // GROUP_SIZE  work-items per work-group.
 // RECORD      what goes with a ray: PathState or ShadowLight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light of a sample, added up per pixel.
+// Adds the light of a sample to its pixel.
 #ifndef BOXWOOD_RENDER_PATH_SUM_H
 #define BOXWOOD_RENDER_PATH_SUM_H
 #include "runtime/inline.h"

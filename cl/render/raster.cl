@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles drawn: the nearest triangle of every pixel.
+// Draws tiles: finds the nearest triangle of every pixel.
 //
 // FLATTENED       1: placed triangles are those of one mesh in world space; 0: of instances
 // PORTABLE_LANES  see runtime/lanes.h

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles brought to the screen, and the pairs of a tile and a triangle.
+// Projects triangles to the screen and lists the pairs of a tile and a triangle.
 //
 // FLATTENED   1: placed triangles are those of one mesh in world space; 0: of instances
 // GROUP_SIZE  work-items per work-group

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shading reads of a scene, and the macros that say which of it there is (see ShadingRequirements). An array that
-// no macro asks for may be null.
+// The arrays of a scene that shading reads, and the macros that say which of them there are (see ShadingRequirements).
+// An array that no macro asks for may be null.
 //
 // TRANSFORMS see render/surface.h
 // MATERIALS  1: triangles name their materials; 0: all have the first

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choosing one of many by chance.
+// Samples one of many alternatives in proportion to their probability.
 #ifndef BOXWOOD_RENDER_SEARCH_H
 #define BOXWOOD_RENDER_SEARCH_H
 #include "runtime/real.h"

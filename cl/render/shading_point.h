@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surfaces that rays met as shading sees them, one per lane: interpolated attributes of the vertices and the
+// The surfaces that rays hit, as shading sees them, one per lane: interpolated attributes of the vertices and the
 // material at that point (dissertation 3.7.6). Macros: render/scene_arrays.h, and render/texture.h when TEXTURES is 1.
 #ifndef BOXWOOD_RENDER_SHADING_POINT_H
 #define BOXWOOD_RENDER_SHADING_POINT_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine of an azimuth that is drawn, and the angle of a direction: the built-in functions differ between
-// devices, and some take lane by lane. These give the same bits on every device.
+// Sine and cosine of a sampled azimuth, and the angle of a direction. The built-in functions differ between devices,
+// and some are evaluated lane by lane; these give the same bits everywhere.
 #ifndef BOXWOOD_RENDER_TURN_H
 #define BOXWOOD_RENDER_TURN_H
 #include "runtime/real.h"

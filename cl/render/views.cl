@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What primary rays met and cost, shown as light. A work-item writes `length` consecutive pixels of the `count`. No
-// barriers: work-items share nothing.
+// Shows what primary rays hit, and their cost, as light. A work-item writes `length` consecutive pixels of the `count`.
+// No barriers: work-items share nothing.
 //
 // GROUP_SIZE  work-items per work-group.
 // compile:

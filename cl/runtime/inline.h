@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the device functions of an inner loop. PoCL leaves larger functions as calls, and everything that they are handed
-// by pointer then lives in memory: hits and rays then cross memory at every node.
+// For the device functions of inner loops. PoCL does not inline larger functions, and whatever is passed to a call by
+// pointer lives in memory: rays and hits would be stored and loaded at every node.
 #ifndef BOXWOOD_RUNTIME_INLINE_H
 #define BOXWOOD_RUNTIME_INLINE_H
 

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// Stands for the text that a launch brings along (KernelRef::source); nothing when it brings none.
+// Replaced by the source text given with a launch (KernelRef::source); empty when there is none.

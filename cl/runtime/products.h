@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Products, lengths and mixtures of OpenCL's vectors, every operation rounded as it is written: of dot(), cross(),
-// length(), normalize() and mix() the standard leaves order and contraction to the device.
+// Products, lengths and mixtures of OpenCL's vectors, with every operation rounded as written: for dot(), cross(),
+// length(), normalize() and mix() the standard leaves the order of operations and their contraction to the device.
 #ifndef BOXWOOD_RUNTIME_PRODUCTS_H
 #define BOXWOOD_RUNTIME_PRODUCTS_H
 #include "runtime/inline.h"

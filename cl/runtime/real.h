@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How many boxes or paths a work-item treats at once: the code of oriented boxes and of shading is written on `real`,
-// one float, eight or sixteen. A device of fat work-items takes several, so that its vector units are used; the
-// operations of a lane are the same, and so are the results.
+// How many boxes or paths a work-item processes at once: the code of oriented boxes and of shading is written on
+// `real`, which is one float, eight or sixteen. A device with few, large work-items takes several, to use its vector
+// units; each lane does the same operations either way, so the results are the same.
 //
 // LANES  1, 8 or 16
 #ifndef BOXWOOD_RUNTIME_REAL_H

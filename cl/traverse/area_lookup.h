@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which influence area answers a ray, and how far.
+// Finds the influence area whose local tree a ray searches, and how far along the ray that search is valid.
 #ifndef BOXWOOD_TRAVERSE_AREA_LOOKUP_H
 #define BOXWOOD_TRAVERSE_AREA_LOOKUP_H
 #include "influence/influence.h"

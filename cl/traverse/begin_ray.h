@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the caller's ray to the one that is traced, and from its distances back to the caller's.
+// Converts the caller's ray to the one that is traced, and distances along that back to the caller's.
 #ifndef BOXWOOD_TRAVERSE_BEGIN_RAY_H
 #define BOXWOOD_TRAVERSE_BEGIN_RAY_H
 #include "traverse/far_origin.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays from far away start anew near the scene. Roundings grow with the distance from the origin, and with them the
-// boxes that a ray has to visit; a point of the ray near the scene has neither.
+// Moves the origins of rays from far away close to the scene. Rounding errors grow with the distance of the origin, and
+// with them the number of boxes that a ray has to visit; from a point of the ray near the scene neither happens.
 #ifndef BOXWOOD_TRAVERSE_FAR_ORIGIN_H
 #define BOXWOOD_TRAVERSE_FAR_ORIGIN_H
 #include "runtime/inline.h"

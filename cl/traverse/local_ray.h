@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ray in one space (world, or the object space of an instance), with what the box test needs worked out once.
+// A ray in one space (world, or the object space of an instance), with precomputed values for the box test.
 #ifndef BOXWOOD_TRAVERSE_LOCAL_RAY_H
 #define BOXWOOD_TRAVERSE_LOCAL_RAY_H
 #include "runtime/lanes.h"

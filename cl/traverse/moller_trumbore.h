@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray against triangle after Moller and Trumbore (1997), from the vertices and without any epsilon: what the watertight
-// test of ray_triangle.h is priced against. Neighbours round their shared edge differently, so rays may pass between
-// them or hit both, and boxes, which are padded for the watertight test, may or may not decide about a hit.
+// test of ray_triangle.h is compared with. Neighbours round their shared edge differently, so rays may pass between
+// them or hit both; and as boxes are padded for the watertight test only, a hit may depend on the boxes.
 #ifndef BOXWOOD_TRAVERSE_MOLLER_TRUMBORE_H
 #define BOXWOOD_TRAVERSE_MOLLER_TRUMBORE_H
 #include "traverse/leaf.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What rays meet of a binary tree before it has a layout, with the leaves that a builder chose: counted over all boxes
+// Counts what rays meet of a binary tree before it has a layout, with the leaves that a builder chose: over all boxes
 // on the ray, as cost functions do, and over those that the search for the closest hit visits.
 //
 // STACK_SIZE  at least 1 more than the most nodes on a path from the root to a leaf's parent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One step down: tests the children of a node, puts all that are met but one on the stack, and goes on with that one.
+// One step down: tests the children of a node, goes on with one that is hit, and pushes the others on the stack.
 #ifndef BOXWOOD_TRAVERSE_VISIT_NODE_H
 #define BOXWOOD_TRAVERSE_VISIT_NODE_H
 #include "runtime/prefetch.h"

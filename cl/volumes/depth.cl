@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth of binary trees, bottom-up: what proves the size of the traversal stack.
+// Depth of binary trees, bottom-up; it determines the size of the traversal stack.
 // compile:
 #include "shared/types.h"
 

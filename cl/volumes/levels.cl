@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inner nodes of all trees by height, so that a level's nodes can be treated at once.
+// Groups the inner nodes of all trees by height, so that the nodes of a level can be processed at once.
 // compile:
 #include "shared/types.h"
 

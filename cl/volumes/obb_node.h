@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of oriented boxes know of a node: its points, its moments.
+// Access to the points and moments of a node, for the kernels of oriented boxes.
 //
 // POINTS_PER_PRIMITIVE  3: triangles, whose vertices are as they are; 8: instances, whose corners were rounded
 #ifndef BOXWOOD_VOLUMES_OBB_NODE_H
