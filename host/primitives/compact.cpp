@@ -23,8 +23,8 @@ void compact(Device& device, BufferView<const T> in, BufferView<const std::uint3
     launch(device, count_kernel, "compact: count", slices.slices, flags, kept, static_cast<cl_uint>(in.size()),
            slices.length, slices.slices);
     detail::exclusive_sums(device, kept.prefix(slices.slices), before.prefix(slices.slices), most);
-    launch(device, move_kernel, "compact: move", slices.slices, in, flags, before, kept, out, count, slices.length,
-           slices.slices);
+    launch(device, move_kernel, "compact: move", slices.slices, words_of(in), flags, before, kept, words_of(out), count,
+           slices.length, slices.slices);
 }
 
 template void compact(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include <CL/cl.h>
 
@@ -23,39 +24,65 @@ template <class T>
 struct Element;
 template <>
 struct Element<std::int32_t> {
+    using Scalar = std::int32_t;
     static constexpr const char* scalar = "int";
     static constexpr int components = 1;
 };
 template <>
 struct Element<std::uint32_t> {
+    using Scalar = std::uint32_t;
     static constexpr const char* scalar = "uint";
     static constexpr int components = 1;
 };
 template <>
 struct Element<std::uint64_t> {
+    using Scalar = std::uint64_t;
     static constexpr const char* scalar = "ulong";
     static constexpr int components = 1;
 };
 template <>
 struct Element<float> {
+    using Scalar = float;
     static constexpr const char* scalar = "float";
     static constexpr int components = 1;
 };
 template <>
 struct Element<cl_float4> {
+    using Scalar = float;
     static constexpr const char* scalar = "float";
     static constexpr int components = 4;
 };
 template <>
 struct Element<cl_ulong4> {
+    using Scalar = std::uint64_t;
     static constexpr const char* scalar = "ulong";
     static constexpr int components = 4;
 };
 template <>
 struct Element<Aabb> {
+    using Scalar = float;
     static constexpr const char* scalar = "float";
     static constexpr int components = 6;
 };
+
+/// The same memory as elements of another type, which a kernel takes it for.
+template <class To, class T>
+BufferView<To> view_as(const BufferView<T>& view) {
+    return {view.handle(), view.size() * sizeof(T) / sizeof(To)};
+}
+
+/// As kernels compiled with bits_defines see it.
+template <class T>
+auto words_of(const BufferView<T>& view) {
+    return view_as<std::conditional_t<std::is_const_v<T>, const std::uint32_t, std::uint32_t>>(view);
+}
+
+/// As kernels compiled with operator_defines see it.
+template <class T>
+auto scalars_of(const BufferView<T>& view) {
+    using Scalar = typename Element<std::remove_const_t<T>>::Scalar;
+    return view_as<std::conditional_t<std::is_const_v<T>, const Scalar, Scalar>>(view);
+}
 
 /// Macros for kernels that only move elements: four bytes at a time, so that types of one size share a program.
 template <class T>
@@ -81,8 +108,8 @@ template <class T>
 void reduce_tiles(Device& device, BufferView<const T> in, const Defines& defines, BufferView<T> out) {
     const std::size_t count = in.size();
     const Slices slices = count == 0 ? Slices{1, tile} : cut(device, count, tile);
-    launch(device, {"primitives/reduce.cl", "reduce", defines}, "reduce", slices.slices, in, out,
-           static_cast<cl_uint>(count), slices.length, slices.slices);
+    launch(device, {"primitives/reduce.cl", "reduce", defines}, "reduce", slices.slices, scalars_of(in),
+           scalars_of(out), static_cast<cl_uint>(count), slices.length, slices.slices);
 }
 
 } // namespace boxwood::detail

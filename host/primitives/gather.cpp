@@ -9,8 +9,8 @@ template <class T>
 void gather(Device& device, BufferView<const T> in, BufferView<const std::uint32_t> indices, BufferView<T> out) {
     detail::require(out.size() >= indices.size(), "out", "has fewer elements than indices");
     const Slices slices = cut(device, indices.size());
-    launch(device, {"primitives/gather.cl", "gather", detail::bits_defines<T>()}, "gather", slices.slices, in, indices,
-           out, static_cast<cl_uint>(indices.size()), slices.length, slices.slices);
+    launch(device, {"primitives/gather.cl", "gather", detail::bits_defines<T>()}, "gather", slices.slices, words_of(in),
+           indices, words_of(out), static_cast<cl_uint>(indices.size()), slices.length, slices.slices);
 }
 
 template void gather(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>,

@@ -37,8 +37,8 @@ void scan(Device& device, BufferView<const T> in, const Defines& op, bool inclus
     Defines defines = op;
     defines["INCLUSIVE"] = std::to_string(inclusive ? 1 : 0);
     const Slices slices = cut(device, in.size(), detail::tile);
-    launch(device, {"primitives/scan.cl", "scan", defines}, "scan", slices.slices, in, out, before,
-           static_cast<cl_uint>(in.size()), slices.length, slices.slices);
+    launch(device, {"primitives/scan.cl", "scan", defines}, "scan", slices.slices, scalars_of(in), scalars_of(out),
+           scalars_of(before), static_cast<cl_uint>(in.size()), slices.length, slices.slices);
 }
 
 template <class T>

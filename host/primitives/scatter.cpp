@@ -10,8 +10,8 @@ void scatter(Device& device, BufferView<const T> in, BufferView<const std::uint3
     detail::require(indices.size() == in.size(), "indices", "needs as many entries as in has elements");
     detail::require(out.size() >= in.size(), "out", "has fewer elements than in, so indices cannot be distinct");
     const Slices slices = cut(device, in.size());
-    launch(device, {"primitives/scatter.cl", "scatter", detail::bits_defines<T>()}, "scatter", slices.slices, in,
-           indices, out, static_cast<cl_uint>(in.size()), slices.length, slices.slices);
+    launch(device, {"primitives/scatter.cl", "scatter", detail::bits_defines<T>()}, "scatter", slices.slices,
+           words_of(in), indices, words_of(out), static_cast<cl_uint>(in.size()), slices.length, slices.slices);
 }
 
 template void scatter(Device&, BufferView<const std::int32_t>, BufferView<const std::uint32_t>,

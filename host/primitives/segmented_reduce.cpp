@@ -14,8 +14,8 @@ void segmented(Device& device, BufferView<const T> in, BufferView<const std::uin
                BufferView<T> out) {
     const std::size_t segments = offsets.size() - 1;
     const Slices over_segments = cut(device, segments);
-    launch(device, {file, "segmented_empty", defines}, "segmented reduce: empty", over_segments.slices, offsets, out,
-           static_cast<cl_uint>(segments), over_segments.length, over_segments.slices);
+    launch(device, {file, "segmented_empty", defines}, "segmented reduce: empty", over_segments.slices, offsets,
+           scalars_of(out), static_cast<cl_uint>(segments), over_segments.length, over_segments.slices);
     if (in.size() == 0) return;
 
     const std::size_t tiles = detail::tiles_of(in.size());
@@ -24,16 +24,17 @@ void segmented(Device& device, BufferView<const T> in, BufferView<const std::uin
     auto tail_segment = make_scratch<std::uint32_t>(device, tiles, "segments of tails");
     auto spans = make_scratch<std::uint32_t>(device, tiles + 1, "spans of heads");
     const Slices over_elements = cut(device, in.size(), detail::tile);
-    launch(device, {file, "segmented_reduce", defines}, "segmented reduce", over_elements.slices, in, offsets, out,
-           head, tail, tail_segment, spans, static_cast<cl_uint>(in.size()), static_cast<cl_uint>(segments),
-           over_elements.length, over_elements.slices);
+    launch(device, {file, "segmented_reduce", defines}, "segmented reduce", over_elements.slices, scalars_of(in),
+           offsets, scalars_of(out), scalars_of(head.view()), scalars_of(tail.view()), tail_segment, spans,
+           static_cast<cl_uint>(in.size()), static_cast<cl_uint>(segments), over_elements.length, over_elements.slices);
     if (tiles == 1) return;
 
     auto reduced = make_scratch<T>(device, tiles, "reduced heads");
     segmented<T>(device, head, spans, defines, reduced);
     const Slices over_tiles = cut(device, tiles);
-    launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_tiles.slices, tail, reduced,
-           tail_segment, out, static_cast<cl_uint>(tiles), over_tiles.length, over_tiles.slices);
+    launch(device, {file, "segmented_finish", defines}, "segmented reduce: finish", over_tiles.slices,
+           scalars_of(tail.view()), scalars_of(reduced.view()), tail_segment, scalars_of(out),
+           static_cast<cl_uint>(tiles), over_tiles.length, over_tiles.slices);
 }
 
 } // namespace
