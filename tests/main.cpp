@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "boxwood/error.hpp"
+#include "runtime/device_state.hpp"
 #include "runtime/kernel_text.hpp"
 #include "support.hpp"
 

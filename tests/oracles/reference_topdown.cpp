@@ -82,11 +82,11 @@ struct Recursion {
         const std::uint32_t few = 4 + static_cast<std::uint32_t>(list.size()) / options.primitives_per_bin;
         const std::uint32_t count = options.bin_box ? options.bins : std::min(options.bins, few);
         const std::vector<std::uint32_t> bin = bins_of(list, axis, count);
-        if (place.empty()) return;
+        if (bin.empty()) return;
         const auto& measure = fallback ? rules.fallback_measure : rules.measure;
         for (std::uint32_t plane = 1; plane < count; ++plane) {
             Cut cut{};
-            for (std::size_t i = 0; i < list.size(); ++i) (place[i] < plane ? cut.left : cut.right).push_back(list[i]);
+            for (std::size_t i = 0; i < list.size(); ++i) (bin[i] < plane ? cut.left : cut.right).push_back(list[i]);
             if (cut.left.empty() || cut.right.empty()) continue;
             const float left = measure(root, box_of(cut.left)), right = measure(root, box_of(cut.right));
             cut.cost = left * rounded(cut.left.size()) + right * rounded(cut.right.size());
