@@ -104,7 +104,7 @@ TEST_CASE("radix_sort: more than 2^24 pairs") {
         keys[i] = static_cast<std::uint32_t>(std::uint64_t{i} * 5 % size);
         positions[i] = i;
     }
-    const auto sorted_keys = upload(device, keys, "keys"), sorted_values = upload(device, positions, "values");
+    auto sorted_keys = upload(device, keys, "keys"), sorted_values = upload(device, positions, "values");
     radix_sort(device, sorted_keys, sorted_values, 0, 25);
     const std::vector<std::uint32_t> values = download(device, sorted_values), result = download(device, sorted_keys);
     std::size_t wrong = 0;
@@ -130,8 +130,8 @@ TEST_CASE_TEMPLATE("radix_sort: memory does not depend on the number of threads"
         CAPTURE(size);
         for (const int bits : {2, 8, 30}) {
             CAPTURE(bits);
-            const auto keys = upload(device, random_values<Key>(size, 12), "keys");
-            const auto values = upload(device, std::vector<std::uint32_t>(size), "values");
+            auto keys = upload(device, random_values<Key>(size, 12), "keys");
+            auto values = upload(device, std::vector<std::uint32_t>(size), "values");
             check_memory_by_compute_units([&] { radix_sort(device, keys, values, 0, bits); });
         }
     }

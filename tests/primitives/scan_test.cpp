@@ -134,7 +134,7 @@ TEST_CASE("scan: the tuning does not change a bit") {
 TEST_CASE("scan: in place") {
     Device& device = test_device();
     const std::vector<std::uint32_t> values = random_values<std::uint32_t>(5001, 6);
-    const auto buffer = upload(device, values, "values");
+    auto buffer = upload(device, values, "values");
     exclusive_scan(device, buffer, Operator::sum, buffer);
     check_scan(values, download(device, buffer), Operator::sum, false);
 }

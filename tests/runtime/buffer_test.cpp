@@ -61,7 +61,7 @@ TEST_CASE("buffer: what is written is read, copied and filled") {
 
 TEST_CASE("buffer: no elements are a valid buffer") {
     Device& device = test_device();
-    const Buffer<std::uint32_t> none = upload(device, std::vector<std::uint32_t>{}, "none");
+    Buffer<std::uint32_t> none = upload(device, std::vector<std::uint32_t>{}, "none");
     CHECK(none.size() == 0);
     CHECK(download(device, none).empty());
     CHECK_NOTHROW(fill(device, none, 1));

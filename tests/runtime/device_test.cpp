@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#define CL_USE_DEPRECATED_OPENCL_1_2_APIS // clCreateCommandQueue, which every device has
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
