@@ -10,6 +10,7 @@ endfunction()
 
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 boxwood_check(format COMMAND ${scripts}/check_format.sh TIMEOUT 120 PROCESSORS 1)
+boxwood_check(tidy COMMAND ${scripts}/check_tidy.sh ${PROJECT_BINARY_DIR} TIMEOUT 900 PROCESSORS 2)
 boxwood_check(layers COMMAND ${scripts}/check_layers.sh TIMEOUT 60 PROCESSORS 1)
 boxwood_check(kernels COMMAND ${scripts}/check_kernels.sh TIMEOUT 300 PROCESSORS 1)
 boxwood_check(spirv COMMAND ${scripts}/check_spirv.sh TIMEOUT 300 PROCESSORS 2)

@@ -12,8 +12,8 @@ packages=(g++ cmake ninja-build pkg-config
     pocl-opencl-icd ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers
     libglm-dev libtinygltf-dev libopenexr-dev libstb-dev libxxhash-dev
     nlohmann-json3-dev libcli11-dev doctest-dev)
-checks=(clang clang-14 libclang-rt-14-dev llvm-spirv-14 clang-format clinfo oclgrind shellcheck libembree-dev libtbb-dev
-    python3-matplotlib python3-pip)
+checks=(clang clang-14 libclang-rt-14-dev llvm-spirv-14 clang-format clang-tidy clinfo oclgrind shellcheck
+    libembree-dev libtbb-dev python3-matplotlib python3-pip)
 second_driver=()
 
 case "${1:-}" in

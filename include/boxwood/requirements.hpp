@@ -26,7 +26,7 @@ struct Requirements {
 Requirements requirements(const Scene& scene, const BuildOptions& options);
 
 /// The words for reports: "two-levels", "instance-lookup", "oriented-boxes", "influence-areas".
-std::vector<std::string> words(const Requirements& requirements);
+std::vector<std::string> words(const Requirements& needs);
 
 /// All that requirements() and shading_requirements() name, in the order of their words. O(size of the scene).
 std::vector<Reason> reasons(const Scene& scene, const BuildOptions& options);
