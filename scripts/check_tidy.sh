@@ -14,6 +14,6 @@ layers=("${@:2}")
 # The flags are GCC's, some of which clang does not know. How many warnings were left out is said on standard error.
 {
     find "${layers[@]/#/host/}" -name '*.cpp' -print0
-    printf 'tests/example/example.cpp\0'
+    printf 'tests/example/trace/main.cpp\0'
 } | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option \
     2> >(grep -vE '^[0-9]+ warnings? (generated|treated as errors)' >&2 || true)
