@@ -186,7 +186,7 @@ TEST_CASE("film: pixels at once are those of the tuning, whatever the device, an
         Tuning tuning = device.tuning();
         tuning.lanes = lanes;
         device.set_tuning(tuning);
-        const Buffer<float> film = make_film(device, whole, 21);
+        Buffer<float> film = make_film(device, whole, 21);
         const double before = device.compile_ms();
         const Buffer<float> sample = upload(device, light, "light");
         add_sample(device, whole, {{sample}, {}, 0, 21}, film);

@@ -114,8 +114,8 @@ inline double light_probability(const std::vector<LightNode>& nodes, std::uint32
     double probability = 1.0;
     for (std::size_t at = nodes.size() / 2 + light; at != root; at = nodes[at].parent) {
         const LightNode& parent = nodes[nodes[at].parent];
-        const double probability = first_child_probability(nodes, parent, place);
-        probability *= parent.children[0] == at ? probability : 1.0 - probability;
+        const double of_first = first_child_probability(nodes, parent, place);
+        probability *= parent.children[0] == at ? of_first : 1.0 - of_first;
     }
     return probability;
 }
