@@ -179,9 +179,9 @@ void TopDownBuild::emit_roots() {
 
 void TopDownBuild::split_level(std::uint32_t parity) {
     const std::uint32_t nodes = node_count_, chunks = chunk_count_;
-    const Buffer<LargeNode>&level = nodes_[parity], &next = nodes_[1 - parity];
+    Buffer<LargeNode>&level = nodes_[parity], &next = nodes_[1 - parity];
     const Buffer<std::uint32_t>& firsts = first_chunks_[parity];
-    const Buffer<cl_float8>&from = records_[parity], &to = records_[1 - parity];
+    Buffer<cl_float8>&from = records_[parity], &to = records_[1 - parity];
     launch(device_, level_kernel("topdown_bin"), "bin", chunks, level, firsts, from, centres_, chunk_bins_,
            chunk_counts_, nodes, chunks, chunk_size_);
     const Slices slots = cut(device_, std::size_t{nodes} * slots_);

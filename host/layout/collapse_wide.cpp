@@ -93,7 +93,7 @@ std::vector<Level> choose_levels(const Collapse& c) {
     return levels;
 }
 
-void write_levels(const Collapse& c, const std::vector<Level>& levels, const WideLayout& layout) {
+void write_levels(const Collapse& c, const std::vector<Level>& levels, WideLayout& layout) {
     std::uint32_t first_node = 0, first_leaf = 0;
     for (const Level& level : levels) {
         const Slices nodes = cut(c.device, level.size);
