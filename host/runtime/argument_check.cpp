@@ -23,6 +23,8 @@ bool is_local_name(const std::string& name) { return name.ends_with("_t"); }
 void check_arguments(const cl::Kernel& kernel, const Argument* arguments, cl_uint count) {
     for (cl_uint i = 0; i < count; ++i) {
         const Argument& given = arguments[i];
+        std::size_t bytes = 0;
+        if (clGetKernelArgInfo(kernel(), i, CL_KERNEL_ARG_TYPE_NAME, 0, nullptr, &bytes) != CL_SUCCESS) return;
         const std::string type = kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(i);
         const bool pointer = type.find('*') != std::string::npos;
         const std::string wanted = element_name(type);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "boxwood/error.hpp"
+#include "runtime/device_state.hpp"
 #include "runtime/kernel_text.hpp"
 #include "runtime/launch.hpp"
 #include "support.hpp"
@@ -63,6 +64,9 @@ TEST_CASE("launch: a wrong number or size of arguments, or no such kernel, is a 
     }
     CHECK_THROWS_AS(launch(device, count_kernel("1"), "count", 1, out.view(), 1u, 2u), DeviceError);
     CHECK_THROWS_AS(launch(device, count_kernel("1"), "count", 1, out.view(), std::uint64_t(1)), DeviceError);
+    device.state().checks_arguments = false; // the driver itself notices a wrong size
+    CHECK_THROWS_AS(launch(device, count_kernel("1"), "count", 1, out.view(), std::uint64_t(1)), DeviceError);
+    device.state().checks_arguments = true;
     const KernelRef nameless{"launch_test/count.cl", "no_such_kernel", {{"STEP", "1"}}};
     CHECK_THROWS_AS(launch(device, nameless, "count", 1, out.view(), 1u), DeviceError);
 }
