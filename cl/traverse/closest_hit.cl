@@ -26,21 +26,12 @@
 ///       statistics only; otherwise they may be null.
 /// @post hits[i] is the answer for rays[i]: the smallest t, then the lowest (instance, primitive).
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void closest_hit(global const node_t* nodes, global const leaf_t* leaves, global const node_t* top_nodes,
-                 global const InstanceRecord* instances, global const LocalArea* areas,
-                 global const AreaNode* area_nodes, global const uint* area_items, global const uint* first_triangles,
-                 uint instance_count, global const Ray* rays, uint ray_count, uint slice, SceneSphere sphere,
-                 global Hit* hits, global RayStatistics* statistics) {
+void closest_hit(TREE_PARAMETERS, global const Ray* rays, uint ray_count, uint slice,
+                 global const uint* first_triangles, uint instance_count, global Hit* hits,
+                 global RayStatistics* statistics) {
     const uint first = (uint)get_global_id(0) * slice;
     const uint last = first < ray_count ? first + min(slice, ray_count - first) : first;
-    const TracedTree tree = {
-        {nodes, (global const char*)leaves, sizeof(leaf_t)},
-        {top_nodes, (global const char*)instances, sizeof(InstanceRecord)},
-#if AREAS
-        {areas, area_nodes, area_items},
-#endif
-        sphere
-    };
+    const TracedTree tree = TRACED_TREE;
     for (uint i = first; i < last; ++i) {
         TraversalState state;
         Units units;

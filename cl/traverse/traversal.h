@@ -160,6 +160,22 @@ typedef struct TracedTree {
     SceneSphere sphere; ///< Around everything.
 } TracedTree;
 
+// The first parameters of a kernel that traces, and the TracedTree of them.
+#define TREE_PARAMETERS                                                                                           \
+    global const node_t *nodes, global const leaf_t *leaves, global const node_t *top_nodes,                      \
+        global const InstanceRecord *instances, global const LocalArea *areas, global const AreaNode *area_nodes, \
+        global const uint *area_items, SceneSphere sphere
+#if AREAS
+#define TRACED_AREAS {areas, area_nodes, area_items},
+#else
+#define TRACED_AREAS
+#endif
+#define TRACED_TREE                                                                                 \
+    {                                                                                               \
+        {nodes, (global const char*)leaves, sizeof(leaf_t)},                                        \
+            {top_nodes, (global const char*)instances, sizeof(InstanceRecord)}, TRACED_AREAS sphere \
+    }
+
 /// Searches the whole tree: state->primitive is BOXWOOD_NONE, or what was hit.
 INLINE void trace(global const Ray* source, const TracedTree* tree, Units* units, TraversalState* state) {
     entry_t stack[STACK_SIZE];

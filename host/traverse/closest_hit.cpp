@@ -18,15 +18,10 @@ void write_misses(Device& device, BufferView<Hit> hits) {
 
 void trace(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits,
            BufferView<RayStatistics> statistics, Query query, const TraceOptions& options) {
-    const Slices slices = cut_rays(device, rays.size());
-    const TreeArrays& arrays = tree.arrays();
-    const std::size_t starts = arrays.first_triangles.size();
-    visit_layout(arrays, [&](const auto& bottom, const auto& top) {
-        launch(device, traversal_kernel(tree, query, options), "closest hit", slices.slices, bottom.nodes,
-               bottom.leaves, top.nodes, arrays.instances, arrays.areas, arrays.area_nodes, arrays.area_items,
-               arrays.first_triangles, static_cast<std::uint32_t>(starts == 0 ? 0 : starts - 1), rays,
-               static_cast<std::uint32_t>(rays.size()), slices.length, arrays.sphere, hits, statistics);
-    });
+    const BufferView<const std::uint32_t> starts = tree.arrays().first_triangles;
+    const auto instance_count = static_cast<std::uint32_t>(starts.size() == 0 ? 0 : starts.size() - 1);
+    launch_traversal(device, traversal_kernel(tree, query, options), "closest hit", tree, rays, starts, instance_count,
+                     hits, statistics);
 }
 
 } // namespace

@@ -24,4 +24,18 @@ KernelRef traversal_kernel(const Tree& tree, Query query, const TraceOptions& op
 /// Rays per work-item: those of the device's tuning, but short enough that uneven rays leave no work-item behind.
 Slices cut_rays(const Device& device, std::size_t count);
 
+/// Launches a traversal kernel for `rays` on a tree that is not empty: its first parameters are TREE_PARAMETERS
+/// (cl/traverse/traversal.h) and the rays, the others `arguments`.
+template <class... Arguments>
+void launch_traversal(Device& device, const KernelRef& kernel, const char* label, const Tree& tree,
+                      BufferView<const Ray> rays, Arguments&&... arguments) {
+    const Slices slices = cut_rays(device, rays.size());
+    const TreeArrays& arrays = tree.arrays();
+    visit_layout(arrays, [&](const auto& bottom, const auto& top) {
+        launch(device, kernel, label, slices.slices, bottom.nodes, bottom.leaves, top.nodes, arrays.instances,
+               arrays.areas, arrays.area_nodes, arrays.area_items, arrays.sphere, rays,
+               static_cast<std::uint32_t>(rays.size()), slices.length, arguments...);
+    });
+}
+
 } // namespace boxwood

@@ -70,14 +70,9 @@ std::vector<Ray> hard_rays(const InfluenceRecord& area, std::uint32_t count) {
 void naive_closest_hit(Device& device, const Tree& tree, BufferView<const Ray> rays, BufferView<Hit> hits) {
     KernelRef kernel = traversal_kernel(tree, Query::closest, {});
     kernel.defines["EXIT_RULE"] = "0";
-    const Slices slices = cut_rays(device, rays.size());
-    const BufferView<RayStatistics> none;
-    const TreeArrays& arrays = tree.arrays();
-    visit_layout(arrays, [&](const auto& bottom, const auto& top) {
-        launch(device, kernel, "naive closest hit", slices.slices, bottom.nodes, bottom.leaves, top.nodes,
-               arrays.instances, arrays.areas, arrays.area_nodes, arrays.area_items, arrays.first_triangles, 0u, rays,
-               static_cast<std::uint32_t>(rays.size()), slices.length, arrays.sphere, hits, none);
-    });
+    const BufferView<const std::uint32_t> no_starts;
+    const BufferView<RayStatistics> no_statistics;
+    launch_traversal(device, kernel, "naive closest hit", tree, rays, no_starts, 0u, hits, no_statistics);
 }
 
 std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b) {
