@@ -20,8 +20,8 @@ std::uint64_t tree_bytes(const std::vector<Node>& nodes, std::size_t leaf_bytes)
         const Node& node = nodes[waiting.back()];
         waiting.pop_back();
         bytes += sizeof(Node);
-        for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
-            const std::uint32_t child = tree_check::reference_of(node, slot);
+        for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(node); ++slot) {
+            const std::uint32_t child = detail::tree_check::reference_of(node, slot);
             if (child & BOXWOOD_LEAF)
                 bytes += leaf_bytes;
             else

@@ -14,7 +14,7 @@
 
 #include "boxwood/error.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 /// Appends values and lists to a section.
 class Encoder {
@@ -88,4 +88,4 @@ private:
 /// Least bytes of a text.
 inline constexpr std::size_t text_bytes = sizeof(std::uint64_t);
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

@@ -23,7 +23,7 @@
 
 #include "boxwood/bxw.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 static_assert(std::endian::native == std::endian::little, "sections are the bytes of arrays in memory");
 static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(glm::mat4) == 64);
@@ -131,4 +131,4 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree);
 /// Reads a whole container of `size` bytes; `file` names it in errors. Throws InputError as load_bxw does.
 BxwFile read(std::istream& in, std::uint64_t size, const std::string& file);
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

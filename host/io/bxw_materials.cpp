@@ -4,7 +4,7 @@
 #include "io/bxw_codec.hpp"
 #include "scene/materials_in_use.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::vector<std::uint64_t> decode_materials(std::span<const char> bytes, const s
     return sizes;
 }
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

@@ -16,7 +16,7 @@
 
 #include "boxwood/scene.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 std::string encode_materials(const Scene& scene);
 
@@ -25,4 +25,4 @@ std::string encode_materials(const Scene& scene);
 /// multiple of bytes.size().
 std::vector<std::uint64_t> decode_materials(std::span<const char> bytes, const std::string& file, Scene& scene);
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

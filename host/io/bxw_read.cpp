@@ -13,7 +13,7 @@
 
 namespace boxwood {
 
-namespace bxw {
+namespace detail::bxw {
 
 namespace {
 
@@ -224,7 +224,7 @@ BxwFile read(std::istream& in, std::uint64_t size, const std::string& file) {
     return result;
 }
 
-} // namespace bxw
+} // namespace detail::bxw
 
 BxwFile load_bxw(const std::filesystem::path& file) {
     std::error_code failure;
@@ -233,7 +233,7 @@ BxwFile load_bxw(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw InputError(file.string(), "", "cannot be opened");
     try {
-        return bxw::read(in, size, file.string());
+        return detail::bxw::read(in, size, file.string());
     } catch (const std::bad_alloc&) { // a sparse file can be larger than any memory
         throw InputError(file.string(), "", "needs more memory than there is");
     }
@@ -242,9 +242,9 @@ BxwFile load_bxw(const std::filesystem::path& file) {
 bool is_bxw(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) return false; // reading a pipe would use up its bytes
-    std::array<char, bxw::magic.size()> start{};
+    std::array<char, detail::bxw::magic.size()> start{};
     std::ifstream in(file, std::ios::binary);
-    return in.read(start.data(), start.size()) && start == bxw::magic;
+    return in.read(start.data(), start.size()) && start == detail::bxw::magic;
 }
 
 } // namespace boxwood

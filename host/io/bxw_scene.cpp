@@ -3,7 +3,7 @@
 
 #include "io/bxw_codec.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 namespace {
 
@@ -98,4 +98,4 @@ SceneOutline decode_scene(std::span<const char> bytes, const std::string& file) 
     return outline;
 }
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

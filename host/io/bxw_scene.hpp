@@ -15,7 +15,7 @@
 
 #include "boxwood/scene.hpp"
 
-namespace boxwood::bxw {
+namespace boxwood::detail::bxw {
 
 /// What a mesh may have beside positions and triangles.
 enum MeshPart : std::uint32_t {
@@ -49,4 +49,4 @@ std::string encode_scene(const Scene& scene);
 /// bytes.size(), whatever the counts claim.
 SceneOutline decode_scene(std::span<const char> bytes, const std::string& file);
 
-} // namespace boxwood::bxw
+} // namespace boxwood::detail::bxw

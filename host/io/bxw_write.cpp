@@ -9,7 +9,7 @@
 
 namespace boxwood {
 
-namespace bxw {
+namespace detail::bxw {
 
 namespace {
 
@@ -106,13 +106,13 @@ void write(std::ostream& out, const Scene& scene, const TreeImage& tree) {
     }
 }
 
-} // namespace bxw
+} // namespace detail::bxw
 
 void save_bxw(const std::filesystem::path& file, const Scene& scene, const TreeImage& tree) {
     validate(scene, file.string());
     validate(tree, scene, file.string());
     AtomicFile out(file);
-    bxw::write(out.stream(), scene, tree);
+    detail::bxw::write(out.stream(), scene, tree);
     out.commit();
 }
 

@@ -56,11 +56,11 @@ AnalysisTree stored_tree(const std::vector<Node>& nodes, std::uint32_t root, std
             continue;
         }
         const Node& node = nodes[references[i]];
-        for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
+        for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(node); ++slot) {
             const BoxCorners corners = slot_corners(node, slot);
             add_child(tree, i, hull_of(corners));
             if (oriented) tree.corners.push_back(corners);
-            references.push_back(tree_check::reference_of(node, slot));
+            references.push_back(detail::tree_check::reference_of(node, slot));
         }
     }
     sum_primitives(tree);

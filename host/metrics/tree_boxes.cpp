@@ -54,7 +54,7 @@ template <class Node>
 BoxCorners hull_corners(const Node& root) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     glm::vec3 low(infinity), high(-infinity);
-    for (std::uint32_t slot = 0; slot < tree_check::used_slots(root); ++slot) {
+    for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(root); ++slot) {
         for (const glm::vec3& corner : slot_corners(root, slot)) {
             low = glm::min(low, corner);
             high = glm::max(high, corner);
@@ -73,9 +73,9 @@ Mesh tree_lines(const std::vector<Node>& nodes, std::uint32_t root, DepthRange d
         waiting.pop_back();
         if (depth > depths.last) continue;
         const Node& node = nodes[index];
-        for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
+        for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(node); ++slot) {
             if (depth >= depths.first) add_box(slot_corners(node, slot), lines);
-            const std::uint32_t child = tree_check::reference_of(node, slot);
+            const std::uint32_t child = detail::tree_check::reference_of(node, slot);
             if (!(child & BOXWOOD_LEAF)) waiting.emplace_back(child, depth + 1);
         }
     }
@@ -117,13 +117,13 @@ void add_bottom_lines(const TreeImage& tree, const Scene& scene, DepthRange dept
 } // namespace
 
 BoxCorners slot_corners(const BinaryNode& node, std::uint32_t slot) {
-    return corners_of(tree_check::slot_box(node, slot));
+    return corners_of(detail::tree_check::slot_box(node, slot));
 }
 BoxCorners slot_corners(const Wide8Node& node, std::uint32_t slot) {
-    return corners_of(tree_check::slot_box(node, slot));
+    return corners_of(detail::tree_check::slot_box(node, slot));
 }
 BoxCorners slot_corners(const OrientedNode& node, std::uint32_t slot) {
-    if (node.child[slot] & BOXWOOD_ALIGNED) return corners_of(tree_check::slot_box(node, slot));
+    if (node.child[slot] & BOXWOOD_ALIGNED) return corners_of(detail::tree_check::slot_box(node, slot));
     return corners_of_oriented(node.volume[slot]);
 }
 

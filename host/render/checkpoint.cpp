@@ -33,38 +33,38 @@ static_assert(sizeof(Header) == 40 && std::endian::native == std::endian::little
 
 std::uint64_t checksum(Header header, std::span<const std::byte> floats) {
     header.checksum = 0;
-    bxw::Checksum sum;
+    detail::bxw::Checksum sum;
     sum.add(&header, sizeof header);
     sum.add(floats.data(), floats.size());
     return sum.value();
 }
 
 template <class T>
-void add_value(bxw::Checksum& sum, const T& value) {
+void add_value(detail::bxw::Checksum& sum, const T& value) {
     static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
     sum.add(&value, sizeof value);
 }
 
-void add_text(bxw::Checksum& sum, std::string_view text) {
+void add_text(detail::bxw::Checksum& sum, std::string_view text) {
     add_value(sum, text.size());
     sum.add(text.data(), text.size());
 }
 
 template <class T>
-void add_array(bxw::Checksum& sum, const std::vector<T>& array) {
+void add_array(detail::bxw::Checksum& sum, const std::vector<T>& array) {
     add_value(sum, array.size());
     sum.add(array.data(), array.size() * sizeof(T));
 }
 
 template <class T>
-void add_array(bxw::Checksum& sum, Device& device, const Buffer<T>& array) {
+void add_array(detail::bxw::Checksum& sum, Device& device, const Buffer<T>& array) {
     if (array.size() == 0)
         add_value(sum, std::size_t{0});
     else
         add_array(sum, download(device, array));
 }
 
-void add_world(bxw::Checksum& sum, Device& device, const World& world) {
+void add_world(detail::bxw::Checksum& sum, Device& device, const World& world) {
     const Geometry& geometry = world.geometry;
     const Appearance& appearance = world.appearance;
     add_array(sum, device, geometry.positions);
@@ -84,7 +84,7 @@ void add_world(bxw::Checksum& sum, Device& device, const World& world) {
 }
 
 /// What the cost of a ray depends on: kinds, counts and nodes.
-void add_tree(bxw::Checksum& sum, Device& device, const Tree& tree) {
+void add_tree(detail::bxw::Checksum& sum, Device& device, const Tree& tree) {
     for (const std::uint32_t kind :
          {static_cast<std::uint32_t>(tree.layout()), static_cast<std::uint32_t>(tree.levels()),
           static_cast<std::uint32_t>(tree.bounds())})
@@ -95,14 +95,14 @@ void add_tree(bxw::Checksum& sum, Device& device, const Tree& tree) {
     });
 }
 
-void add_camera(bxw::Checksum& sum, const Camera& camera) {
+void add_camera(detail::bxw::Checksum& sum, const Camera& camera) {
     sum.add(&camera.to_world, sizeof camera.to_world);
     add_value(sum, std::uint32_t{camera.perspective});
     add_value(sum, camera.vertical_fov);
     add_value(sum, camera.half_height);
 }
 
-void add_options(bxw::Checksum& sum, const RenderOptions& options) {
+void add_options(detail::bxw::Checksum& sum, const RenderOptions& options) {
     const LightOptions& light = options.light;
     for (const std::string_view word :
          {name(light.integrator), name(light.primary), name(light.sampler), name(light.strategy),
@@ -118,7 +118,7 @@ void add_options(bxw::Checksum& sum, const RenderOptions& options) {
 
 std::uint64_t render_fingerprint(Device& device, const World& world, const Camera& camera,
                                  const RenderOptions& options) {
-    bxw::Checksum sum;
+    detail::bxw::Checksum sum;
     const DeviceInfo& info = device.info();
     for (const std::string_view text : {std::string_view(BOXWOOD_VERSION), std::string_view(info.platform),
                                         std::string_view(info.name), std::string_view(info.driver)})

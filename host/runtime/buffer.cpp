@@ -25,8 +25,8 @@ std::unique_ptr<Memory> allocate(Device& device, std::size_t count, std::size_t 
     constexpr std::size_t most_elements = std::numeric_limits<std::int32_t>::max();
     if (count > most_elements) throw CapacityError(std::string("elements of ") + label, count, most_elements);
     const std::size_t bytes = std::max<std::size_t>(count, 1) * element_bytes;
-    const DeviceState::Block block = device.state().allocate(bytes, label, pooled);
-    return std::make_unique<Memory>(device.shared_state(), block.handle, block.bytes, pooled);
+    const DeviceState::Allocation allocation = device.state().allocate(bytes, label, pooled);
+    return std::make_unique<Memory>(device.shared_state(), allocation.handle, allocation.bytes, pooled);
 }
 
 void write(Device& device, cl_mem target, const void* source, std::size_t bytes, std::size_t offset) {

@@ -106,18 +106,18 @@ Profile DeviceState::take_profile() {
     return std::exchange(profile_, {});
 }
 
-DeviceState::Block DeviceState::allocate(std::size_t bytes, const char* label, bool pooled) {
+DeviceState::Allocation DeviceState::allocate(std::size_t bytes, const char* label, bool pooled) {
     const std::string what = std::string("device memory for ") + label;
     if (bytes > info.largest_buffer_bytes)
         throw CapacityError("largest buffer of " + info.name + ", in bytes, for " + label, bytes,
                             info.largest_buffer_bytes);
     if (pooled) {
-        // A block up to half as large again is better reused than a new one made.
+        // An allocation up to half as large again is better reused than a new one made.
         const auto found = pool_.lower_bound(bytes);
         if (found != pool_.end() && found->first <= bytes + bytes / 2 + 4096) {
-            const Block block{found->second, found->first};
+            const Allocation allocation{found->second, found->first};
             pool_.erase(found);
-            return block;
+            return allocation;
         }
     }
     if (held_bytes + bytes > info.global_bytes) trim();
@@ -139,16 +139,16 @@ DeviceState::Block DeviceState::allocate(std::size_t bytes, const char* label, b
     return {handle, bytes};
 }
 
-void DeviceState::release(const Block& block, bool pooled) noexcept {
+void DeviceState::release(const Allocation& allocation, bool pooled) noexcept {
     if (pooled) {
         try {
-            pool_.emplace(block.bytes, block.handle);
+            pool_.emplace(allocation.bytes, allocation.handle);
             return;
-        } catch (...) { // no memory for the pool entry: free the block instead
+        } catch (...) { // no memory for the pool entry: free the allocation instead
         }
     }
-    clReleaseMemObject(block.handle);
-    held_bytes -= block.bytes;
+    clReleaseMemObject(allocation.handle);
+    held_bytes -= allocation.bytes;
 }
 
 void DeviceState::trim() noexcept {

@@ -51,12 +51,12 @@ public:
     Profile take_profile();
 
     /// Memory accounting. `allocate` throws CapacityError; `release` takes back what it gave.
-    struct Block {
+    struct Allocation {
         cl_mem handle;
         std::size_t bytes;
     };
-    Block allocate(std::size_t bytes, const char* label, bool pooled);
-    void release(const Block& block, bool pooled) noexcept;
+    Allocation allocate(std::size_t bytes, const char* label, bool pooled);
+    void release(const Allocation& allocation, bool pooled) noexcept;
     void trim() noexcept;
     std::uint64_t held_bytes = 0;
     std::uint64_t peak_bytes = 0;

@@ -11,7 +11,7 @@ namespace boxwood {
 
 namespace {
 
-using namespace tree_check;
+using namespace detail::tree_check;
 
 /// Unit length and right angles but for the rounding of their components.
 bool is_orthonormal(const InfluenceRecord& region) {

@@ -14,7 +14,7 @@ namespace boxwood {
 
 namespace {
 
-using namespace tree_check;
+using namespace detail::tree_check;
 
 constexpr Words<Layout, 3> layouts = {
     {{"auto", Layout::automatic}, {"binary", Layout::binary}, {"wide8", Layout::wide8}}};

@@ -16,7 +16,7 @@
 #include "boxwood/error.hpp"
 #include "shared/node.h"
 
-namespace boxwood::tree_check {
+namespace boxwood::detail::tree_check {
 
 inline std::string element(std::string_view array, std::uint64_t index) {
     return std::string(array) + "[" + std::to_string(index) + "]";
@@ -201,4 +201,4 @@ private:
     std::vector<Visit> stack_;
 };
 
-} // namespace boxwood::tree_check
+} // namespace boxwood::detail::tree_check

@@ -32,7 +32,7 @@ double volume_of(const Aabb& box) {
 }
 
 void add_below(const std::vector<BinaryNode>& nodes, std::uint32_t index, Metrics& metrics) {
-    for (std::uint32_t slot = 0; slot < tree_check::used_slots(nodes[index]); ++slot) {
+    for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(nodes[index]); ++slot) {
         const Aabb& box = nodes[index].bounds[slot];
         metrics.area += area_of(box);
         metrics.volume += volume_of(box);

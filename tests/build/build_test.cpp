@@ -76,9 +76,9 @@ std::size_t outside_below(const std::vector<Node>& nodes, std::uint32_t root, co
                           const Outside& outside, std::vector<glm::dvec3>& points) {
     std::size_t wrong = 0;
     const Node& node = nodes[root];
-    for (std::uint32_t slot = 0; slot < tree_check::used_slots(node); ++slot) {
+    for (std::uint32_t slot = 0; slot < detail::tree_check::used_slots(node); ++slot) {
         std::vector<glm::dvec3> below;
-        const std::uint32_t child = tree_check::reference_of(node, slot);
+        const std::uint32_t child = detail::tree_check::reference_of(node, slot);
         if (child & BOXWOOD_LEAF)
             leaf_points(child & ~BOXWOOD_LEAF, below);
         else
@@ -92,7 +92,7 @@ std::size_t outside_below(const std::vector<Node>& nodes, std::uint32_t root, co
 struct IsOutside {
     template <class Node>
     bool operator()(const Node& node, std::uint32_t slot, const glm::dvec3& p) const {
-        const Aabb box = tree_check::slot_box(node, slot);
+        const Aabb box = detail::tree_check::slot_box(node, slot);
         for (int k = 0; k < 3; ++k)
             if (!(double(box.min[k]) <= p[k] && p[k] <= double(box.max[k]))) return true;
         return false;

@@ -180,7 +180,7 @@ TEST_CASE("bxw: a .bxw file with bytes behind its end is refused") {
 TEST_CASE("bxw: a file that ends earlier than its size said is refused") { // it shrank while it was read
     const std::string bytes = sample_bytes(layouts[0], Levels::one);
     std::istringstream in(bytes.substr(0, bytes.size() - 1));
-    CHECK_THROWS_AS(bxw::read(in, bytes.size(), "test.bxw"), InputError);
+    CHECK_THROWS_AS(detail::bxw::read(in, bytes.size(), "test.bxw"), InputError);
 }
 
 TEST_CASE("bxw: a newer .bxw file is refused as newer, whatever follows its version") {
@@ -229,7 +229,7 @@ TEST_CASE("bxw: a section table that lies is refused, its checksum being right")
     const auto sections = sections_of(bytes);
     const auto table = table_of(bytes);
     REQUIRE(seal(sections) == bytes);
-    using Change = std::function<void(std::vector<bxw::SectionEntry>&)>;
+    using Change = std::function<void(std::vector<detail::bxw::SectionEntry>&)>;
     const std::vector<Change> changes = {
         [](auto& t) { t.pop_back(); },
         [](auto& t) { t.push_back(t.back()); },
