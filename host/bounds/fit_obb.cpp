@@ -5,6 +5,7 @@
 #include "boxwood/obb.hpp"
 #include "boxwood/reduce.hpp"
 #include "boxwood/segmented_reduce.hpp"
+#include "primitives/element.hpp"
 #include "runtime/launch.hpp"
 #include "shared/aabb.h"
 
@@ -47,17 +48,19 @@ std::uint32_t fit_axes(Device& device, const Elements& elements, BufferView<cons
     auto first = make_scratch<cl_float4>(device, elements.count, "first moments");
     const Slices slices = cut(device, elements.count);
     launch(device, {file, "first_moments", elements.defines}, "first moments", slices.slices, elements.positions,
-           elements.triangles, elements.offsets, aabbs, first, elements.count, elements.segments(), slices.length,
-           slices.slices);
+           elements.triangles, elements.offsets, aabbs, detail::scalars_of(first.view()), elements.count,
+           elements.segments(), slices.length, slices.slices);
     const auto means = sum(device, elements, first);
     auto rest = make_scratch<cl_float4>(device, elements.count, "second moments");
     launch(device, {file, "second_moments", elements.defines}, "second moments", slices.slices, elements.positions,
-           elements.triangles, elements.offsets, aabbs, means, first, rest, elements.count, elements.segments(),
+           elements.triangles, elements.offsets, aabbs, detail::scalars_of(means.view()),
+           detail::scalars_of(first.view()), detail::scalars_of(rest.view()), elements.count, elements.segments(),
            slices.length, slices.slices);
+    const auto first_sums = sum(device, elements, first), rest_sums = sum(device, elements, rest);
     const Slices over_segments = cut(device, elements.segments());
     launch(device, {file, "principal_axes", elements.defines}, "principal axes", over_segments.slices, elements.offsets,
-           sum(device, elements, first), sum(device, elements, rest), boxes, close, elements.segments(),
-           over_segments.length, over_segments.slices);
+           detail::scalars_of(first_sums.view()), detail::scalars_of(rest_sums.view()), boxes, close,
+           elements.segments(), over_segments.length, over_segments.slices);
     auto number = make_scratch<std::uint32_t>(device, 1, "number of close fits");
     reduce(device, close, Operator::sum, number);
     return download_element(device, number, 0);
@@ -87,11 +90,12 @@ Buffer<Obb> turn_axes(Device& device, const Elements& elements, BufferView<const
     const Slices slices = cut(device, elements.count), over_segments = cut(device, elements.segments());
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         launch(device, {turn_file, "extreme_keys", elements.defines}, "extreme vertices", slices.slices,
-               elements.positions, elements.triangles, elements.offsets, aabbs, close, keys, pass, elements.count,
-               elements.segments(), slices.length, slices.slices);
+               elements.positions, elements.triangles, elements.offsets, aabbs, close, detail::scalars_of(keys.view()),
+               pass, elements.count, elements.segments(), slices.length, slices.slices);
         segmented_reduce(device, keys, elements.offsets, Operator::max, extremes);
         launch(device, {turn_file, "take_extremes", elements.defines}, "extreme vertices: take", over_segments.slices,
-               extremes, close, vertices, pass, elements.segments(), over_segments.length, over_segments.slices);
+               detail::scalars_of(extremes.view()), close, vertices, pass, elements.segments(), over_segments.length,
+               over_segments.slices);
     }
     auto turned = make_scratch<Obb>(device, elements.segments(), "turned axes");
     launch(device, {turn_file, "turn_axes", elements.defines}, "turn axes", elements.segments(), elements.positions,

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <CL/cl.h>
+#include <glm/glm.hpp>
 
 namespace boxwood::detail {
 
@@ -32,7 +33,7 @@ constexpr std::string_view opencl_type() {
         return "uint2";
     else if constexpr (std::is_same_v<T, cl_float2>)
         return "float2";
-    else if constexpr (std::is_same_v<T, cl_float4>)
+    else if constexpr (std::is_same_v<T, cl_float4> || std::is_same_v<T, glm::vec4>)
         return "float4";
     else if constexpr (std::is_same_v<T, cl_float8>)
         return "float8";
