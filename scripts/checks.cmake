@@ -15,7 +15,6 @@ boxwood_check(layers COMMAND ${scripts}/check_layers.sh TIMEOUT 60 PROCESSORS 1)
 boxwood_check(kernels COMMAND ${scripts}/check_kernels.sh TIMEOUT 300 PROCESSORS 1)
 boxwood_check(spirv COMMAND ${scripts}/check_spirv.sh TIMEOUT 300 PROCESSORS 2)
 boxwood_check(oclgrind COMMAND ${scripts}/check_oclgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 1500 PROCESSORS 2)
-boxwood_check(debug COMMAND ${scripts}/check_debug.sh ${PROJECT_BINARY_DIR} TIMEOUT 1200 PROCESSORS 2)
 boxwood_check(sanitizers COMMAND ${scripts}/check_sanitizers.sh TIMEOUT 1800 PROCESSORS 2)
 boxwood_check(gpu-profile COMMAND ${CMAKE_COMMAND} -E env BOXWOOD_SMALL=1 ${PROJECT_BINARY_DIR}/boxwood-tests
   --tuning=64,2048,4,1 --test-suite=runtime,primitives,bounds,influence,volumes,layout,metrics,build,traverse --no-intro
