@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the library and its tests by the preset `debug`, with AddressSanitizer and UndefinedBehaviorSanitizer and runs them on small sizes.
+# Builds the library and its tests by the preset `debug`, with AddressSanitizer and UndefinedBehaviorSanitizer, and runs
+# them on small sizes.
 # usage: scripts/check_sanitizers.sh [SUITE,...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
