@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "layout/triangle_records.hpp"
 
-#include "runtime/launch.hpp"
+#include <algorithm>
+
+#include "volumes/node_levels.hpp"
 
 namespace boxwood {
 
@@ -14,6 +16,10 @@ Buffer<Triangle> triangle_records(Device& device, const Topology& topology, cons
            "triangle records", slices.slices, topology.order, topology.offsets, names, geometry.positions,
            geometry.triangles, records, static_cast<std::uint32_t>(topology.trees()), count, slices.length);
     return records;
+}
+
+std::uint32_t measure_depth(Device& device, const Topology& topology) {
+    return std::max(node_heights(device, topology).greatest, 1u);
 }
 
 } // namespace boxwood
