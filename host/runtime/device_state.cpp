@@ -39,13 +39,7 @@ DeviceState::DeviceState(cl::Context context_, cl::CommandQueue queue_, DeviceIn
     : device(queue_.getInfo<CL_QUEUE_DEVICE>()), info(std::move(info_)), context(std::move(context_)),
       queue(std::move(queue_)), profiles((queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_PROFILING_ENABLE) != 0) {}
 
-const cl::Program& DeviceState::program(const std::string& file, const std::string& options,
-                                        const std::string& source) {
-    const std::string key = file + '\n' + options + '\n' + source;
-    if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-
-    const auto start = std::chrono::steady_clock::now();
-    const std::string text = resolve_kernel_text(file, source);
+cl::Program DeviceState::compile(const std::string& file, const std::string& text, const std::string& options) const {
     cl::Program built(context, text);
     try {
         built.build(device, options.c_str());
@@ -58,6 +52,29 @@ const cl::Program& DeviceState::program(const std::string& file, const std::stri
         built() = nullptr;
         throw;
     }
+    return built;
+}
+
+cl::Program DeviceState::compile_quickly(const std::string& file, const std::string& source,
+                                         const std::string& options) const {
+    const std::string text = resolve_kernel_text(file, source);
+    // A source that came with a launch may call any built-in function, for any type.
+    if (is_pocl(info.platform) && source.empty()) {
+        try {
+            return compile(file, resolve_kernel_text("runtime/builtins.h") + text, options + pocl_without_builtins);
+        } catch (const ProgramError&) { // calls a function that is not declared there, or has a fault of its own
+        }
+    }
+    return compile(file, text, options);
+}
+
+const cl::Program& DeviceState::program(const std::string& file, const std::string& options,
+                                        const std::string& source) {
+    const std::string key = file + '\n' + options + '\n' + source;
+    if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+
+    const auto start = std::chrono::steady_clock::now();
+    cl::Program built = compile_quickly(file, source, options);
     compile_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return programs_.emplace(key, std::move(built)).first->second;
 }
@@ -152,7 +169,7 @@ void DeviceState::release(const Allocation& allocation, bool pooled) noexcept {
 }
 
 void DeviceState::trim() noexcept {
-    // Blocks may still be in use by enqueued work; OpenCL frees them after it.
+    // Allocations may still be in use by enqueued work; OpenCL frees them after it.
     for (const auto& [bytes, handle] : pool_) {
         clReleaseMemObject(handle);
         held_bytes -= bytes;

@@ -67,6 +67,10 @@ private:
         cl::Event event;
     };
 
+    /// `text` made from `file`, compiled. Throws ProgramError, and DeviceError where PoCL cannot keep what it compiles.
+    cl::Program compile(const std::string& file, const std::string& text, const std::string& options) const;
+    /// The same program from fewer declarations where the device's compiler can do with those of runtime/builtins.h.
+    cl::Program compile_quickly(const std::string& file, const std::string& source, const std::string& options) const;
     const cl::Program& program(const std::string& file, const std::string& options, const std::string& source);
     void resolve_pending();
 

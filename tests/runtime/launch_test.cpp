@@ -7,6 +7,7 @@
 #include "runtime/device_state.hpp"
 #include "runtime/kernel_text.hpp"
 #include "runtime/launch.hpp"
+#include "runtime/pocl.hpp"
 #include "support.hpp"
 #include "tuning.hpp"
 
@@ -69,6 +70,23 @@ TEST_CASE("launch: a wrong number or size of arguments, or no such kernel, is a 
     device.state().checks_arguments = true;
     const KernelRef nameless{"launch_test/count.cl", "no_such_kernel", {{"STEP", "1"}}};
     CHECK_THROWS_AS(launch(device, nameless, "count", 1, out.view(), 1u), DeviceError);
+}
+
+TEST_CASE("launch: PoCL reads few declarations of built-in functions for an embedded kernel, all for others") {
+    add_texts();
+    add_kernels({{"launch_test/few.cl", "kernel void f(global float* out) { out[0] = sqrt(out[0]); }\n"},
+                 {"launch_test/every.cl", "kernel void f(global float* out) { out[0] = sinpi(out[0]); }\n"},
+                 {"launch_test/brought.cl", "#include \"runtime/inserted.h\"\n"}});
+    Device& device = test_device();
+    if (!is_pocl(device.info().platform)) return;
+    const auto reads_few = [&](const char* file, const char* source) {
+        const cl::Kernel& kernel = device.state().kernel(file, "f", "-cl-std=" + device.info().language, source);
+        const auto program = kernel.getInfo<CL_KERNEL_PROGRAM>();
+        return has(program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(device.state().device), pocl_without_builtins);
+    };
+    CHECK(reads_few("launch_test/few.cl", ""));
+    CHECK_FALSE(reads_few("launch_test/every.cl", "")); // calls another function
+    CHECK_FALSE(reads_few("launch_test/brought.cl", "kernel void f(global float* out) { out[0] = sqrt(out[0]); }\n"));
 }
 
 TEST_CASE("launch: a program that does not compile says file, line, device, options, log and text") {
