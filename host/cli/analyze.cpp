@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/analysis.hpp"
 #include "boxwood/influence.hpp"
 #include "cli/areas.hpp"

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/bxw.hpp"
 #include "cli/areas.hpp"
 #include "cli/input.hpp"

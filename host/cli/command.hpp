@@ -9,10 +9,14 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "boxwood/build.hpp"
 #include "boxwood/error.hpp"
+
+// CLI/CLI.hpp, which takes as long to compile as all else, is included where options are declared.
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
 
 namespace boxwood::cli {
 

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/device.hpp"
 #include "cli/command.hpp"
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/error.hpp"
 #include "boxwood/material.hpp"
 #include "boxwood/render.hpp"

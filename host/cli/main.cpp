@@ -3,6 +3,8 @@
 #include <iostream>
 #include <new>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/command.hpp"
 #include "cli/standard_output.hpp"
 #include "common/excerpt.hpp"

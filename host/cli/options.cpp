@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/device.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"

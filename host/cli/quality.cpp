@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/requirements.hpp"
 #include "cli/quality_report.hpp"
 #include "cli/quality_study.hpp"

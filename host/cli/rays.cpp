@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/rays.hpp"
 #include "scene/random.hpp"
 

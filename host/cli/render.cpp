@@ -8,6 +8,8 @@
 #include <memory>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/rays.hpp"
 #include "boxwood/render.hpp"
 #include "boxwood/requirements.hpp"

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/gltf.hpp"
 #include "boxwood/procedural.hpp"
 #include "cli/command.hpp"

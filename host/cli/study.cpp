@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/study_summary.hpp"

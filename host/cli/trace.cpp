@@ -6,6 +6,8 @@
 #include <memory>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/rays.hpp"
 #include "cli/areas.hpp"
 #include "cli/input.hpp"

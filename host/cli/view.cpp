@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <CLI/CLI.hpp>
+
 #include "boxwood/rays.hpp"
 #include "common/excerpt.hpp"
 #include "scene/transform.hpp"
