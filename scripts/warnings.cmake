@@ -12,8 +12,13 @@ function(boxwood_warnings target)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
       -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=address,undefined)
-    # Only here, so that other builds show where a file does not include what it needs.
-    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
-      <sstream> <string> <vector> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
+    boxwood_precompile(${target})
   endif()
+endfunction()
+
+# boxwood_precompile(TARGET): what many files include is read once. Only in builds of checks, so that others show where a
+# file does not include what it needs.
+function(boxwood_precompile target)
+  target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
+    <sstream> <string> <vector> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
 endfunction()
