@@ -24,12 +24,12 @@ trap 'rm -rf "$work"' EXIT
 failed=0
 compiled=0
 
-# compile FILE OUTPUT [COMPILER FLAG...] with the macro set in $macros, to the compiler's own code before it is optimised
+# compile FILE OUTPUT [COMPILER FLAG...] with the macro set in $macros, to LLVM's language, not optimised
 compile() {
     local file=$1 output=$2
     shift 2
-    if ! clang -x cl -S -emit-llvm -O1 -Xclang -disable-llvm-passes -Wall -Wextra -Wno-unused-parameter -Wno-psabi -Werror "$@" \
-        -DGROUP_SIZE=1 "${macros[@]/#/-D}" -I cl -I tests "$file" -o "$output"; then
+    if ! clang -x cl -S -emit-llvm -O1 -Xclang -disable-llvm-passes -Wall -Wextra -Wno-unused-parameter -Wno-psabi \
+        -Werror "$@" -DGROUP_SIZE=1 "${macros[@]/#/-D}" -I cl -I tests "$file" -o "$output"; then
         echo "check_kernels: $file fails with $* ${macros[*]}" >&2
         failed=1
     fi

@@ -16,8 +16,8 @@ function(boxwood_warnings target)
   endif()
 endfunction()
 
-# boxwood_precompile(TARGET): what many files include is read once. Only in builds of checks, so that others show where a
-# file does not include what it needs.
+# boxwood_precompile(TARGET): what many files include is read once. Only in builds of checks, so that others show where
+# a file does not include what it needs.
 function(boxwood_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
     <sstream> <string> <vector> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
