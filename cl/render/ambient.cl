@@ -175,29 +175,19 @@ INLINE void find_bounce(const SceneArrays* scene, const LightArrays* lights, con
 /// seen as it is, indirect and ambient 0. `next_rays` may be `rays`. A work-item takes `length` consecutive paths of
 /// the `count`. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void ambient_bounce(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes,
-                    uint light_count, global const EnvironmentRecord* environment,
-                    global const float* environment_texels, global const float* environment_rows,
-                    global const float* environment_columns, global const float* coefficients,
+void ambient_bounce(SCENE_PARAMETERS, LIGHT_PARAMETERS, ENVIRONMENT_PARAMETERS, global const float* coefficients,
                     global const CameraRecord* camera, SampleSettings sample, uint bounce, global const Ray* rays,
                     global const Hit* hits, uint count, uint length, global float* throughputs, global Ray* next_rays,
                     global Ray* shadow_rays, global float* pending, global float* direct, global float* indirect,
                     global float* ambient) {
     const SceneArrays scene = SCENE_ARRAYS;
 #if LIGHTS
-    const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
+    const LightArrays light_arrays = LIGHT_ARRAYS;
 #else
     const LightArrays light_arrays = {lights, {light_nodes, 0, BOXWOOD_NONE, BOXWOOD_NONE}};
 #endif
 #if ENVIRONMENT
-    const EnvironmentArrays around = {
-        environment,
-#if ENVIRONMENT == 2
-        environment_texels,
-        environment_rows,
-        environment_columns
-#endif
-    };
+    const EnvironmentArrays around = ENVIRONMENT_ARRAYS;
 #endif
     const AmbientSettings settings = {camera, coefficients, sample, bounce};
     const ulong begin = (ulong)get_global_id(0) * length;

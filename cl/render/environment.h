@@ -34,6 +34,18 @@ typedef struct EnvironmentArrays {
 } EnvironmentArrays;
 #endif
 
+// The parameters of a kernel that is lit from infinitely far away, and the EnvironmentArrays of them.
+#define ENVIRONMENT_PARAMETERS                                                           \
+    global const EnvironmentRecord *environment, global const float *environment_texels, \
+        global const float *environment_rows, global const float *environment_columns
+#if ENVIRONMENT == 2
+#define ENVIRONMENT_ARRAYS \
+    { environment, environment_texels, environment_rows, environment_columns }
+#else
+#define ENVIRONMENT_ARRAYS \
+    { environment }
+#endif
+
 #if ENVIRONMENT == 2
 /// from becomes (1 - part) from + part to, part in [0, 1]; not negative where neither is.
 INLINE void mix3(real part, const Vector* to, Vector* from) {

@@ -21,6 +21,11 @@ typedef struct LightArrays {
     LightTree tree;
 } LightArrays;
 
+// The parameters of a kernel with lights, and the LightArrays of them.
+#define LIGHT_PARAMETERS global const LightRecord *lights, global const LightNode *light_nodes, uint light_count
+#define LIGHT_ARRAYS \
+    { lights, light_tree_of(light_nodes, light_count) }
+
 /// Light on a point from one place.
 typedef struct LightSample {
     Vector segment;   ///< From the point to what must be free of obstacles.

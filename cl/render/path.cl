@@ -234,31 +234,21 @@ INLINE uint keep_lanes(mask goes_on, uint count, uint place, uint* index) {
 /// paths of a slice that go on are moved to its front, their number is kept[slice], and kept[slices] = 0. `next_rays`
 /// may be `rays`; a path has one pixel and a pixel one path. No barrier: work-items share nothing.
 kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
-void shade_paths(SCENE_PARAMETERS, global const LightRecord* lights, global const LightNode* light_nodes,
-                 uint light_count, global const EnvironmentRecord* environment, global const float* environment_texels,
-                 global const float* environment_rows, global const float* environment_columns,
-                 global const CameraRecord* camera, SampleSettings settings, uint first, global const Ray* rays,
-                 global const Hit* hits, uint count, uint length, uint slices, global PathState* states,
-                 global Ray* next_rays, global Ray* shadow_rays, global ShadowLight* shadow_lights, global uint* kept,
-                 global float* direct, global float* indirect) {
+void shade_paths(SCENE_PARAMETERS, LIGHT_PARAMETERS, ENVIRONMENT_PARAMETERS, global const CameraRecord* camera,
+                 SampleSettings settings, uint first, global const Ray* rays, global const Hit* hits, uint count,
+                 uint length, uint slices, global PathState* states, global Ray* next_rays, global Ray* shadow_rays,
+                 global ShadowLight* shadow_lights, global uint* kept, global float* direct, global float* indirect) {
     const uint slice = (uint)get_global_id(0);
     if (slice >= slices) return;
     PathWorld world;
     const SceneArrays scene = SCENE_ARRAYS;
     world.scene = scene;
 #if LIGHTS
-    const LightArrays light_arrays = {lights, light_tree_of(light_nodes, light_count)};
+    const LightArrays light_arrays = LIGHT_ARRAYS;
     world.lights = light_arrays;
 #endif
 #if ENVIRONMENT
-    const EnvironmentArrays environment_arrays = {
-        environment,
-#if ENVIRONMENT == 2
-        environment_texels,
-        environment_rows,
-        environment_columns
-#endif
-    };
+    const EnvironmentArrays environment_arrays = ENVIRONMENT_ARRAYS;
     world.environment = environment_arrays;
 #endif
     const uint begin = slice * length, end = begin + min(length, count - begin);
