@@ -18,9 +18,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// The smallest scene with several instances.
-void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
-
 } // namespace
 
 TEST_CASE("cli: help on the tool and every command, with an example") {

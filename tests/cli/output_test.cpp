@@ -14,8 +14,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-void make_forest(const Tool& tool) {
-    tool.succeed("scene forest --instances 20 -o forest.glb");
+void make_tree(const Tool& tool) {
+    make_forest(tool);
     tool.succeed("build forest.glb -o forest.bxw");
 }
 
@@ -23,7 +23,7 @@ void make_forest(const Tool& tool) {
 
 TEST_CASE("output: what is printed and does not arrive is an error, for every command") {
     const Tool tool;
-    make_forest(tool);
+    make_tree(tool);
     for (const std::string command :
          {"--version", "--help", "devices", "devices --help", "render --help", "scene sphere -o s.glb",
           "build forest.glb -o a.bxw", "build forest.glb -o a.bxw --quiet --profile", "info forest.bxw",
@@ -39,7 +39,7 @@ TEST_CASE("output: what is printed and does not arrive is an error, for every co
 TEST_CASE(
     "output: closed standard descriptors are no fault where nothing is printed, and no file gets what is printed") {
     const Tool tool;
-    make_forest(tool);
+    make_tree(tool);
     const std::string forest = tool.contents("forest.bxw");
     tool.succeed("build forest.glb -o quiet.bxw --quiet >&-");
     tool.succeed("build forest.glb -o closed.bxw --quiet <&- >&- 2>&-");

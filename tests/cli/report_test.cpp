@@ -20,8 +20,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
-
 Json report(const Tool& tool, const std::string& name) { return Json::parse(tool.contents(name)); }
 
 void check_keys(const Json& object, const Names& keys) {

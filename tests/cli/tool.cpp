@@ -85,4 +85,6 @@ void Tool::write(const std::string& name, const std::string& bytes) const {
     std::ofstream(file(name), std::ios::binary) << bytes;
 }
 
+void make_forest(const Tool& tool) { tool.succeed("scene forest --instances 20 -o forest.glb"); }
+
 } // namespace boxwood::test

@@ -43,4 +43,7 @@ private:
     std::filesystem::path folder_;
 };
 
+/// forest.glb, the smallest scene with several instances.
+void make_forest(const Tool& tool);
+
 } // namespace boxwood::test

@@ -38,6 +38,15 @@ HostTopology to_host(Device& device, const Topology& topology) {
             download(device, topology.parents), download(device, topology.far_ends)};
 }
 
+std::vector<cl_uint2> layout_children(const HostTopology& topology) {
+    std::vector<cl_uint2> children = topology.children;
+    for (std::uint32_t tree = 0; tree < topology.trees(); ++tree) {
+        const std::uint32_t first = topology.offsets[tree];
+        if (topology.offsets[tree + 1] - first == 1) children[first].s[0] = topology.root(tree);
+    }
+    return children;
+}
+
 Span span_of(const HostTopology& topology, std::uint32_t node) {
     const std::uint32_t count = topology.size();
     if (node >= count) return {node - count, node - count};

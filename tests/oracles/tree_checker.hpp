@@ -27,6 +27,10 @@ struct HostTopology {
 
 HostTopology to_host(Device& device, const Topology& topology);
 
+/// Children of each node of a layout with a node for each position: those of the inner node, or for a root over one
+/// primitive that leaf and BOXWOOD_NONE.
+std::vector<cl_uint2> layout_children(const HostTopology& topology);
+
 /// Positions [first, last] below a node.
 struct Span {
     std::uint32_t first, last;
