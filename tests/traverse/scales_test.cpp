@@ -142,6 +142,12 @@ void check_tests(const std::string& what, const Scene& scene) {
     }
 }
 
+/// All, or under a checker the last of them.
+std::vector<float> some_of(std::vector<float> distances) {
+    if (small_sizes()) distances.erase(distances.begin(), distances.end() - 1);
+    return distances;
+}
+
 /// The small part in one cell, in two levels also of two meshes beside a third that is not affected.
 std::vector<Scene> uneven_scenes() {
     const std::uint32_t size = scaled_down(4000);
@@ -152,7 +158,7 @@ std::vector<Scene> uneven_scenes() {
 } // namespace
 
 TEST_CASE("scales: a stray triangle far from a ball") {
-    for (const float distance : {1e2f, 1e3f, 1e4f, 1e6f, 1e9f})
+    for (const float distance : some_of({1e2f, 1e3f, 1e4f, 1e6f, 1e9f}))
         check_tests(std::to_string(distance), single(with_stray(scaled_down(20000), distance)));
 }
 
@@ -161,7 +167,8 @@ TEST_CASE("scales: an object on a ground plane") { check_tests("ground", single(
 TEST_CASE("scales: centres that no bits part") { check_tests("coincident", single(coincident(scaled_down(2000)))); }
 
 TEST_CASE("scales: instances close together, and one far away") {
-    for (const float distance : {1e3f, 1e6f}) check_tests(std::to_string(distance), crowd(scaled_down(5000), distance));
+    for (const float distance : some_of({1e3f, 1e6f}))
+        check_tests(std::to_string(distance), crowd(scaled_down(5000), distance));
 }
 
 TEST_CASE("scales: instances in one place are built in balance; rays must test them all") {
