@@ -16,7 +16,6 @@
     DECLARE(T, I) DECLARE(T##2, I##2) DECLARE(T##3, I##3) DECLARE(T##4, I##4) DECLARE(T##8, I##8) DECLARE(T##16, I##16)
 
 size_t PURE get_global_id(uint);
-size_t PURE get_global_size(uint);
 
 #define FLOAT_FUNCTIONS(T) \
     T PURE ceil(T);        \
@@ -53,16 +52,13 @@ SCALAR_BOUNDS_OF(uint)
 #define BIT_FUNCTIONS(T) \
     T PURE clz(T);       \
     T PURE ctz(T);       \
-    T PURE popcount(T);  \
     T PURE rotate(T, T);
 WIDTHS(BIT_FUNCTIONS, int)
 WIDTHS(BIT_FUNCTIONS, uint)
 WIDTHS(BIT_FUNCTIONS, long)
 WIDTHS(BIT_FUNCTIONS, ulong)
 
-#define TESTS(T)     \
-    int PURE any(T); \
-    int PURE all(T);
+#define TESTS(T) int PURE any(T);
 WIDTHS(TESTS, char)
 WIDTHS(TESTS, int)
 WIDTHS(TESTS, long)
